@@ -1,6 +1,6 @@
 //! Defects of the thesis' tool that cannot occur here: changes of values on their way into files.
 
-use sabi_image::{Picture, decode};
+use sabi_image::{Picture, TransferCurve, decode};
 use sabi_tests::BakeOutput;
 use serde_json::{Value as Json, json};
 
@@ -44,7 +44,7 @@ impl MapPixels {
     fn of(baked: &BakeOutput, name: &str, size: u32) -> MapPixels {
         let picture: Picture = decode(name, &baked.map(name)).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!([picture.width, picture.height], [size; 2], "{name}");
-        let rgba = picture.linear_rgba(false).rgba;
+        let rgba = picture.linear_rgba(TransferCurve::Linear).rgba;
         MapPixels { size, rgba }
     }
 

@@ -8,6 +8,7 @@ use sabi_engine::opening::linked_model::ModelOptions;
 use sabi_engine::phases::NoProgress;
 use sabi_export::{BorderRule, ChartBorders, STEEPER};
 use sabi_gpu::{BorderGhost, BorderKind, Borders, Exported, ResultCache, ShownMaps, read_layer, read_slot};
+use sabi_image::TransferCurve;
 use sabi_plan::Mode as Plans;
 use sabi_tests::{BakeOutput, DrawableGraph, MadeMesh, MeshFile, OnMesh, even_light, project};
 use sabi_view::{Mode, Viewpoint};
@@ -50,21 +51,21 @@ fn a_picture_shows_the_values_of_exported_maps_up_to_a_border_where_data_jumps()
     let baked = BakeOutput::of(GRAPH, model, Seams::Erase);
     let mut pictured = DrawableGraph::new(GRAPH, mesh.path(), TEXELS, &even_light(1.0));
     // The tolerance covers a code of 8 bits in the file, which is dithered, and a step of a half float in the picture.
-    let color = map(&baked, "base_color.png", true);
+    let color = map(&baked, "base_color.png", TransferCurve::Srgb);
     let apart = difference(&pictured, &color, Mode::BaseColor, sabi_color::srgb_from_linear);
     assert!(apart < 5e-3, "colors are {apart} apart");
-    let roughness = map(&baked, "roughness.png", false);
+    let roughness = map(&baked, "roughness.png", TransferCurve::Linear);
     let apart = difference(&pictured, &roughness, Mode::Roughness, |value| value);
     assert!(apart < 5e-3, "roughness is {apart} apart");
-    let normals = map(&baked, "normal.png", false);
+    let normals = map(&baked, "normal.png", TransferCurve::Linear);
     let apart = difference(&pictured, &normals, Mode::Normal, |value| value);
     assert!(apart < 5e-3, "normals are {apart} apart");
     pictured.show_node("vertex.color");
-    let vertex = map(&baked, "vertex.png", true);
+    let vertex = map(&baked, "vertex.png", TransferCurve::Srgb);
     let apart = difference(&pictured, &vertex, Mode::Node, sabi_color::srgb_from_linear);
     assert!(apart < 5e-3, "vertex colors are {apart} apart");
     pictured.show_node("second.mask");
-    let second = map(&baked, "second.png", false);
+    let second = map(&baked, "second.png", TransferCurve::Linear);
     let apart = difference(&pictured, &second, Mode::Node, |value| value);
     assert!(apart < 5e-3, "a node's own result is {apart} apart");
 }

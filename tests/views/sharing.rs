@@ -9,7 +9,7 @@ use sabi_engine::opening::linked_model::{LinkedModel, ModelOptions, Overlap};
 use sabi_engine::phases::NoProgress;
 use sabi_export::{NONE, SetLayout, layouts};
 use sabi_gpu::{Exported, Shares, ShownMaps, read_layer, read_slot};
-use sabi_image::{LinearPicture, decode};
+use sabi_image::{LinearPicture, TransferCurve, decode};
 use sabi_plan::Mode as Plans;
 use sabi_tests::{BakeOutput, DrawableGraph, MadeMesh, MeshFile, NodeResult, OnMesh, Quad, even_light, project};
 use sabi_view::{Mode, Shot, Viewpoint};
@@ -100,8 +100,8 @@ pub(crate) fn difference(
     most
 }
 
-pub(crate) fn map(baked: &BakeOutput, name: &str, is_srgb: bool) -> LinearPicture {
-    decode(name, &baked.map(name)).expect("a map").linear_rgba(is_srgb)
+pub(crate) fn map(baked: &BakeOutput, name: &str, curve: TransferCurve) -> LinearPicture {
+    decode(name, &baked.map(name)).expect("a map").linear_rgba(curve)
 }
 
 #[test]
@@ -112,17 +112,17 @@ fn charts_that_share_a_place_are_shown_as_the_exported_map_has_it() {
         let mut pictured = pictured(&mesh, overlap);
         // The tolerance covers a code of 8 bits in the file, which is dithered, and a step of a half float in the
         // picture.
-        let color = map(&baked, "base_color.png", true);
+        let color = map(&baked, "base_color.png", TransferCurve::Srgb);
         let apart = difference(&pictured, &color, Mode::BaseColor, sabi_color::srgb_from_linear);
         assert!(apart < 5e-3, "{overlap:?}: colors are {apart} apart");
-        let roughness = map(&baked, "roughness.png", false);
+        let roughness = map(&baked, "roughness.png", TransferCurve::Linear);
         let apart = difference(&pictured, &roughness, Mode::Roughness, |value| value);
         assert!(apart < 5e-3, "{overlap:?}: roughness is {apart} apart");
-        let normals = map(&baked, "normal.png", false);
+        let normals = map(&baked, "normal.png", TransferCurve::Linear);
         let apart = difference(&pictured, &normals, Mode::Normal, |value| value);
         assert!(apart < 2e-3, "{overlap:?}: normals are {apart} apart");
         pictured.show_node("clouds");
-        let clouds = map(&baked, "clouds.png", false);
+        let clouds = map(&baked, "clouds.png", TransferCurve::Linear);
         let apart = difference(&pictured, &clouds, Mode::Node, |value| value);
         assert!(apart < 5e-3, "{overlap:?}: a node's own result is {apart} apart");
     }

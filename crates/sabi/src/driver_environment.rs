@@ -46,8 +46,11 @@ fn folder_of_kernels() -> Option<(&'static str, std::ffi::OsString)> {
     if std::env::var_os(FOLDER).is_some() || std::env::var_os(SWITCH).is_some() {
         return None;
     }
-    let of_user = std::env::var_os("XDG_CACHE_HOME").map(std::path::PathBuf::from);
-    let of_user = of_user.or_else(|| Some(std::env::home_dir()?.join(".cache")));
+    let of_user = match std::env::var_os("XDG_CACHE_HOME").map(std::path::PathBuf::from) {
+        // A relative folder is invalid (XDG base directory specification, 0.8), but Mesa would create it in the current one.
+        Some(folder) => Some(folder).filter(|folder| folder.is_absolute()),
+        None => std::env::home_dir().map(|home| home.join(".cache")),
+    };
     if of_user.is_some_and(|folder| can_be_written(&folder.join("mesa_shader_cache"))) {
         return None;
     }

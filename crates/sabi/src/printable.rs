@@ -4,6 +4,7 @@
 use std::borrow::Cow;
 use std::fmt::{self, Write as _};
 use std::io;
+use std::path::Path;
 
 use sabi_files::is_invisible;
 
@@ -49,6 +50,26 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
         shown = broken;
     }
     Cow::Owned(shown)
+}
+
+/// Returns a path as one line for scripts, which open the file of these bytes: what is no text stays as it is. Characters of its text
+/// that control a terminal are escaped.
+#[cfg(unix)]
+pub(crate) fn printable_path(path: &Path) -> Vec<u8> {
+    use std::os::unix::ffi::OsStrExt as _;
+
+    let mut shown = Vec::new();
+    for chunk in path.as_os_str().as_bytes().utf8_chunks() {
+        shown.extend(printable(chunk.valid()).as_bytes());
+        shown.extend(chunk.invalid());
+    }
+    shown
+}
+
+/// Returns a path as one line.
+#[cfg(not(unix))]
+pub(crate) fn printable_path(path: &Path) -> Vec<u8> {
+    printable(&path.display().to_string()).into_owned().into_bytes()
 }
 
 /// Returns a text of several lines, such as a file, with its line breaks and tabs but without characters that control a
@@ -206,6 +227,18 @@ mod tests {
         ] {
             assert_eq!(printable(text), shown, "{text:?}");
         }
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_path_keeps_bytes_that_are_no_text_but_controls_no_terminal() {
+        use std::ffi::OsStr;
+        use std::os::unix::ffi::OsStrExt as _;
+
+        let shown = |bytes: &[u8]| printable_path(Path::new(OsStr::from_bytes(bytes)));
+        assert_eq!(shown(b"p\xff/\xe4.png"), b"p\xff/\xe4.png");
+        assert_eq!(shown("ä/錆.png".as_bytes()), "ä/錆.png".as_bytes());
+        assert_eq!(shown(b"\xff\n\x1b[2J\xe4"), b"\xff\\n\\u{1b}[2J\xe4");
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! Output: data on standard output, words for people on standard error.
 
 use std::fmt;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind, IsTerminal as _, Write};
+use std::path::Path;
 
 use sabi_engine::Warning;
 use sabi_files::io_reason;
@@ -12,7 +13,7 @@ use crate::arguments::{CliCommand, Global, ProgressChoice};
 use crate::event::Event;
 use crate::exit::{Exit, Failure};
 use crate::failure_report::FailureReport;
-use crate::printable::{Page, printable, printable_json};
+use crate::printable::{Page, printable, printable_json, printable_path};
 
 /// Most warnings of a list that are printed; JSON has all of them.
 const MOST_WARNINGS: usize = 200;
@@ -136,10 +137,32 @@ impl Terminal {
         self.page(&[line].into_iter().collect())
     }
 
+    /// Prints paths of files on standard output, one a line. A pipe gets the bytes of each path, a terminal only text.
+    pub(crate) fn paths<P: AsRef<Path>>(&self, paths: impl IntoIterator<Item = P>) -> Result<(), Failure> {
+        if io::stdout().is_terminal() {
+            return self.page(
+                &paths
+                    .into_iter()
+                    .map(|path| path.as_ref().display().to_string())
+                    .collect(),
+            );
+        }
+        let mut lines = Vec::new();
+        for path in paths {
+            lines.extend(printable_path(path.as_ref()));
+            lines.push(b'\n');
+        }
+        self.bytes(&lines)
+    }
+
     /// Prints text on standard output unchanged: a document, or input for another program.
     pub(crate) fn data(&self, text: &str) -> Result<(), Failure> {
+        self.bytes(text.as_bytes())
+    }
+
+    fn bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
         let mut stdout = io::stdout().lock();
-        match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
             // The reader of a pipe may stop early, as `head` does.
             Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
             Err(error) => {

@@ -234,6 +234,7 @@ fn kind_of_picture(error: &ImageError) -> ErrorKind {
     match error {
         ImageError::Empty { .. }
         | ImageError::Unsupported { .. }
+        | ImageError::Pointer { .. }
         | ImageError::Feature { .. }
         | ImageError::Damaged { .. }
         | ImageError::TooLarge { .. } => ErrorKind::BadInput,

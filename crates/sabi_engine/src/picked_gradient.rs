@@ -3,12 +3,11 @@
 use std::path::Path;
 
 use sabi_color::{linear_from_srgb8, oklab_from_linear, srgb8_from_linear};
-use sabi_image::{DeclaredColorSpace, Pixels as Samples};
 use sabi_nodes::kind::WrittenStop;
 use sabi_view::Pixels;
 
 use crate::source::SessionPictures;
-use crate::source::mip_chain::PixelReading;
+use crate::source::mip_chain::{PixelCurve, PixelReading};
 
 /// Number of points along a line at which its color is measured.
 const PLACES: usize = 128;
@@ -31,14 +30,8 @@ impl PickedPicture {
     pub fn read(pictures: &SessionPictures, file: &Path, side: u32) -> Result<PickedPicture, String> {
         let opened = pictures.open(file, &file.to_string_lossy(), "");
         let open = opened.map_err(|(why, _)| format!("The picture cannot be used: {why}."))?;
-        let picture = &open.picture;
-        let is_srgb = match picture.color_space {
-            DeclaredColorSpace::Srgb => true,
-            DeclaredColorSpace::Linear => false,
-            DeclaredColorSpace::Unknown => !matches!(picture.pixels, Samples::F32(_)),
-        };
         let reading = PixelReading {
-            is_srgb,
+            curve: PixelCurve::Declared,
             by_alpha: true,
         };
         let levels = open.levels(reading, side);

@@ -11,7 +11,7 @@ use std::{env, fs};
 
 use rayon::prelude::*;
 use sabi_export::{BakeWriter, Channel, ChannelPixels, Cover, SetKey, SetLayout, SetOptions};
-use sabi_image::decode;
+use sabi_image::{TransferCurve, decode};
 
 const SIZE: u32 = 4096;
 const RUNS: usize = 3;
@@ -105,7 +105,12 @@ fn earlier_map(file: &Path) -> Option<(String, (Channel, ChannelPixels))> {
         Channel::BaseColor | Channel::Emission | Channel::Sheen | Channel::Subsurface
     );
     let components = channel.components();
-    let data = picture.linear_rgba(is_color && ending == "png").rgba;
+    let curve = if is_color && ending == "png" {
+        TransferCurve::Srgb
+    } else {
+        TransferCurve::Linear
+    };
+    let data = picture.linear_rgba(curve).rgba;
     let is_normal = channel == Channel::Normal;
     let value = |value: &f32| if is_normal { value * 2.0 - 1.0 } else { *value };
     let data = data

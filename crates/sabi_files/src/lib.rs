@@ -28,6 +28,7 @@ mod error;
 #[cfg(test)]
 mod fault_tests;
 mod folder_search;
+mod git_lfs;
 mod invisible;
 mod lock;
 mod path_base;
@@ -50,6 +51,7 @@ pub use cache::{Cache, CacheKey, CacheKind};
 pub use disk::{Disk, DiskFault};
 pub use error::{FileError, Operation, io_reason};
 pub use folder_search::FolderSearch;
+pub use git_lfs::is_git_lfs_pointer;
 pub use invisible::is_invisible;
 pub use lock::{FileLock, LockError, is_locked};
 pub use path_base::{AbsolutePaths, NotText, PathBase, path_text, without_detours};

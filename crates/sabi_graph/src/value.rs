@@ -119,6 +119,18 @@ impl Value {
         }
     }
 
+    /// Returns advice, with a semicolon before it, for a text that is a number with a decimal comma; empty for other values.
+    pub fn decimal_comma_advice(&self) -> &'static str {
+        let is_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+        let halves = self.as_text().and_then(|text| text.split_once(','));
+        match halves {
+            Some((whole, part)) if is_digits(whole.trim_start_matches(['-', '+'])) && is_digits(part) => {
+                "; write the decimal point, as in 0.5"
+            }
+            _ => "",
+        }
+    }
+
     /// Returns the name of this value's type with its article, for messages: `a number`, `a list`.
     pub(crate) fn type_with_article(&self) -> &'static str {
         match self {

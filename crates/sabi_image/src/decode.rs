@@ -7,13 +7,15 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 use sabi_cancel::{LookingReader, is_canceled};
 
+use self::alpha::with_straight_alpha;
+use crate::declared_color::declared_by_png;
 use crate::decode_bmp;
 use crate::decode_exr::{check_exr, decode_exr, exr_layer_names};
 use crate::decode_hdr::HdrFile;
 use crate::decode_ktx2::{self, check_ktx2, decode_ktx2};
 use crate::error::damaged;
 use crate::size_limits::{DecodedSize, MAX_DECODED_BYTES, check_size};
-use crate::{DeclaredColorSpace, ImageError, Picture, Pixels};
+use crate::{DeclaredColorSpace, ImageError, Picture, PictureRemarks, Pixels};
 
 /// Maximum compression ratio of deflate (RFC 1951: 258 bytes from 2 bits).
 const DEFLATE_BEST_RATIO: u64 = 1032;
@@ -134,7 +136,7 @@ impl ImageFileFormat {
 }
 
 /// Signatures of common files that are not supported, so that the message can name them.
-const FOREIGN: [(usize, &[u8], &str); 32] = [
+const FOREIGN: [(usize, &[u8], &str); 31] = [
     (0, b"GIF8", "a GIF picture"),
     (0, b"II*\0", "a TIFF picture"),
     (0, b"MM\0*", "a TIFF picture"),
@@ -166,12 +168,9 @@ const FOREIGN: [(usize, &[u8], &str); 32] = [
     (0, b"PK\x03\x04", "an archive (zip)"),
     (0, b"<!DOCTYPE", "a web page"),
     (0, b"<html", "a web page"),
-    (
-        0,
-        b"version https://git-lfs",
-        "a Git LFS pointer instead of the file itself",
-    ),
 ];
+/// First bytes of the text that Git LFS checks out in place of a file that was not fetched (Git LFS specification, "The Pointer").
+const GIT_LFS_POINTER: &[u8] = b"version https://git-lfs";
 /// Bytes of a drawing in XML among which its root is looked for.
 const ROOT_WITHIN: usize = 1024;
 
@@ -212,6 +211,9 @@ fn recognize(name: &str, bytes: &[u8]) -> Result<ImageFileFormat, ImageError> {
             if name.to_ascii_lowercase().ends_with(".tga") && is_tga(bytes) {
                 return Ok(ImageFileFormat::Other(ImageFormat::Tga));
             }
+            if bytes.starts_with(GIT_LFS_POINTER) {
+                return Err(ImageError::Pointer { name: name.into() });
+            }
             let kind = foreign_kind(bytes).unwrap_or("no picture of a known kind");
             return Err(ImageError::Unsupported {
                 name: name.into(),
@@ -231,7 +233,7 @@ fn open_png<'b>(name: &str, bytes: &'b [u8]) -> Result<png::Reader<LookingReader
     let mut decoder = png::Decoder::new_with_limits(LookingReader(Cursor::new(bytes)), limits);
     decoder.set_transformations(png::Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);
-    // Only the existence of a profile matters, and a small one may unpack to gigabytes.
+    // A small profile may unpack to gigabytes. `declared_by_png` reads the beginning.
     decoder.set_ignore_iccp_chunk(true);
     let header = decoder.read_header_info().map_err(damaged)?;
     let (width, height) = (header.width, header.height);
@@ -246,23 +248,6 @@ fn open_png<'b>(name: &str, bytes: &'b [u8]) -> Result<png::Reader<LookingReader
         return Err(self::damaged(name, "PNG", "the file ends too early"));
     }
     Ok(reader)
-}
-
-/// Returns whether a PNG file has a color profile before its pixels.
-fn has_profile(bytes: &[u8]) -> bool {
-    const SIGNATURE_BYTES: usize = 8;
-    let mut rest = bytes.get(SIGNATURE_BYTES..).unwrap_or_default(); // A file that ends here has no chunks.
-    // Each chunk consists of its length, its type, its data and a checksum.
-    while let Some((length, after)) = rest.split_first_chunk::<4>() {
-        match after.first_chunk::<4>() {
-            Some(b"iCCP") => return true,
-            None | Some(b"IDAT" | b"IEND") => return false,
-            Some(_) => {}
-        }
-        let skipped = (u32::from_be_bytes(*length) as usize).saturating_add(8);
-        rest = after.get(skipped..).unwrap_or_default(); // The file is truncated.
-    }
-    false
 }
 
 /// Returns the size of a sample in bytes after expansion to whole bytes.
@@ -282,7 +267,7 @@ fn decode_png(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
 fn decode_png_with_end(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
     let mut reader = open_png(name, bytes)?;
     let (width, height) = (reader.info().width, reader.info().height);
-    let color_space = declared_by_png(reader.info(), has_profile(bytes));
+    let declared = declared_by_png(reader.info(), bytes);
     let (color, depth) = reader.output_color_type();
     let channels = color.samples() as u8;
     let size = reader
@@ -307,31 +292,9 @@ fn decode_png_with_end(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> 
         height,
         channels,
         pixels,
-        color_space,
+        color_space: declared.space,
+        remarks: declared.remarks,
     })
-}
-
-/// Returns the color space that the chunks declare. Newer types of chunks take precedence (PNG specification, third edition, 4.3).
-fn declared_by_png(info: &png::Info<'_>, has_profile: bool) -> DeclaredColorSpace {
-    if let Some(cicp) = &info.coding_independent_code_points {
-        // ITU-T H.273: 8 is linear, 13 is the sRGB curve.
-        return match cicp.transfer_function {
-            8 => DeclaredColorSpace::Linear,
-            13 => DeclaredColorSpace::Srgb,
-            _ => DeclaredColorSpace::Unknown,
-        };
-    }
-    if has_profile {
-        return DeclaredColorSpace::Unknown;
-    }
-    if info.srgb.is_some() {
-        return DeclaredColorSpace::Srgb;
-    }
-    match info.gama_chunk.map(png::ScaledFloat::into_value) {
-        Some(gamma) if (gamma - 1.0).abs() < 0.005 => DeclaredColorSpace::Linear,
-        Some(gamma) if (gamma - 1.0 / 2.2).abs() < 0.005 => DeclaredColorSpace::Srgb,
-        _ => DeclaredColorSpace::Unknown,
-    }
 }
 
 /// Converts an error of the `image` crate's decoders.
@@ -350,6 +313,15 @@ fn explain_other(name: &str, format: ImageFormat, error: image::ImageError) -> I
 /// Opens an image of another format and reads everything before its pixels.
 fn open_other<'b>(name: &str, bytes: &'b [u8], format: ImageFormat) -> Result<impl ImageDecoder + 'b, ImageError> {
     let format_name = ImageFileFormat::Other(format).name();
+    if format == ImageFormat::Jpeg
+        && let Some(feature) = jpeg_kind::unread_feature(bytes)
+    {
+        return Err(ImageError::Feature {
+            name: name.into(),
+            format: format_name,
+            feature,
+        });
+    }
     if format == ImageFormat::Jpeg && !jpeg_is_complete(bytes) {
         return Err(damaged(name, format_name, "the file ends too early"));
     }
@@ -395,10 +367,7 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
     let decoder = open_other(name, bytes, format)?;
     let picture = DynamicImage::from_decoder(decoder).map_err(|error| explain_other(name, format, error))?;
     let (width, height) = (picture.width(), picture.height());
-    let picture = match format {
-        ImageFormat::Tga if has_idle_alpha(bytes, &picture) => DynamicImage::ImageRgb8(picture.into_rgb8()),
-        _ => picture,
-    };
+    let (picture, remark) = with_straight_alpha(bytes, format, picture);
     let channels = picture.color().channel_count();
     let pixels = samples_of(picture).map_err(|feature| ImageError::Feature {
         name: name.into(),
@@ -411,18 +380,11 @@ fn decode_other(name: &str, bytes: &[u8], format: ImageFormat) -> Result<Picture
         channels,
         pixels,
         color_space: DeclaredColorSpace::Unknown,
+        remarks: PictureRemarks {
+            values: remark.map(str::to_owned).into_iter().collect(),
+            color: Vec::new(),
+        },
     })
-}
-
-/// Returns true for a TGA whose fourth byte is no alpha: its descriptor says that there are no such bits, and all of them are 0. Many
-/// programs write alpha and say that there is none.
-fn has_idle_alpha(bytes: &[u8], picture: &DynamicImage) -> bool {
-    const DESCRIPTOR: usize = 17;
-    let says_none = bytes.get(DESCRIPTOR).is_some_and(|descriptor| descriptor & 0x0f == 0);
-    match picture {
-        DynamicImage::ImageRgba8(samples) => says_none && samples.pixels().all(|pixel| pixel.0[3] == 0),
-        _ => false,
-    }
 }
 
 /// Returns the samples unchanged, or the name of their kind where it is not read.
@@ -448,6 +410,8 @@ fn jpeg_is_complete(bytes: &[u8]) -> bool {
     last([0xff, 0xd9]).is_some_and(|end| last([0xff, 0xda]).is_none_or(|scan| scan < end))
 }
 
+mod alpha;
+mod jpeg_kind;
 #[cfg(test)]
 mod odd_kinds;
 #[cfg(test)]

@@ -12,7 +12,7 @@ use sabi_cancel::LookingReader;
 use crate::error::damaged;
 use crate::exr_layers::{ExrLayer, ExrPart, layers};
 use crate::size_limits::{DecodedSize, MAX_DECODED_BYTES, check_size};
-use crate::{DeclaredColorSpace, ImageError, Picture, Pixels};
+use crate::{DeclaredColorSpace, ImageError, Picture, PictureRemarks, Pixels};
 
 const FORMAT: &str = "OpenEXR";
 const DEEP: &str = "it holds deep samples, several for each pixel";
@@ -256,12 +256,17 @@ fn compose(layer: &FlatLayer, window: IntegerBounds, picked: &[Option<usize>]) -
             }
         }
     }
+    let replaced = make_finite(&mut samples, channels);
     Picture {
         width: width as u32,
         height: height as u32,
         channels: channels as u8,
         pixels: Pixels::F32(samples),
         color_space: DeclaredColorSpace::Linear,
+        remarks: PictureRemarks {
+            values: replaced.into_iter().collect(),
+            color: Vec::new(),
+        },
     }
 }
 
@@ -270,20 +275,37 @@ fn overlap(corner: i64, length: usize, window: usize) -> std::ops::Range<usize> 
     (corner.clamp(0, window as i64) as usize).min(end)..end
 }
 
-/// Returns a finite sample. Renderers write NaN and infinity, which any filter would spread.
 fn sample(samples: &FlatSamples, index: usize) -> f32 {
-    let value = match samples {
+    match samples {
         FlatSamples::F16(list) => list.get(index).map_or(0.0, |value| value.to_f32()),
         // Pixels outside of the data window are 0.
         FlatSamples::F32(list) => list.get(index).copied().unwrap_or(0.0),
         FlatSamples::U32(list) => list.get(index).map_or(0.0, |&value| value as f32),
-    };
-    match value {
-        _ if value.is_nan() => 0.0,
-        f32::INFINITY => LARGEST_HALF,
-        f32::NEG_INFINITY => -LARGEST_HALF,
-        value => value,
     }
+}
+
+/// Replaces NaN and infinity, which renderers write and any filter would spread. Returns a clause with the number of such pixels.
+fn make_finite(samples: &mut [f32], channels: usize) -> Option<String> {
+    let mut pixels = 0_usize;
+    for pixel in samples.chunks_exact_mut(channels) {
+        pixels += usize::from(pixel.iter().any(|value| !value.is_finite()));
+        for value in pixel.iter_mut().filter(|value| !value.is_finite()) {
+            *value = match *value {
+                f32::INFINITY => LARGEST_HALF,
+                f32::NEG_INFINITY => -LARGEST_HALF,
+                _ => 0.0,
+            };
+        }
+    }
+    let pixels = match pixels {
+        0 => return None,
+        1 => "1 pixel".to_owned(),
+        more => format!("{more} pixels"),
+    };
+    Some(format!(
+        "has {pixels} with infinite or undefined numbers; infinite ones count as {LARGEST_HALF} and undefined ones as 0, so save it again \
+         without them"
+    ))
 }
 
 #[cfg(test)]

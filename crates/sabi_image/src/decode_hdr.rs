@@ -9,7 +9,7 @@ use sabi_cancel::LookingReader;
 
 use crate::error::damaged;
 use crate::size_limits::{DecodedSize, check_size};
-use crate::{DeclaredColorSpace, ImageError, Picture, Pixels};
+use crate::{DeclaredColorSpace, ImageError, Picture, PictureRemarks, Pixels};
 
 const FORMAT: &str = "HDR";
 /// Bytes of a decoded pixel.
@@ -102,6 +102,7 @@ impl<'b> HdrFile<'b> {
             channels: 3,
             pixels: Pixels::F32(self.upright(samples)),
             color_space: DeclaredColorSpace::Linear,
+            remarks: PictureRemarks::default(),
         })
     }
 

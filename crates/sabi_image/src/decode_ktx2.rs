@@ -10,7 +10,7 @@ use sabi_cancel::LookingReader;
 
 use crate::error::damaged;
 use crate::size_limits::{DecodedSize, check_size};
-use crate::{DeclaredColorSpace, ImageError, Picture, Pixels};
+use crate::{DeclaredColorSpace, ImageError, Picture, PictureRemarks, Pixels};
 
 pub(crate) const IDENTIFIER: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
 const NAME: &str = "KTX2";
@@ -85,6 +85,7 @@ pub(crate) fn decode_ktx2(name: &str, bytes: &[u8]) -> Result<Picture, ImageErro
         channels,
         pixels: Pixels::U8(samples),
         color_space: header.color_space,
+        remarks: PictureRemarks::default(),
     })
 }
 

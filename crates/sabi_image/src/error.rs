@@ -21,6 +21,12 @@ pub enum ImageError {
         /// Kind of the image with its article: `a TIFF picture`.
         kind: String,
     },
+    /// The pointer of Git LFS in place of a file that was not fetched.
+    #[error("{name} is a Git LFS pointer instead of the picture itself; run `git lfs pull` where it came from")]
+    Pointer {
+        /// Name as given by the caller.
+        name: String,
+    },
     /// A supported kind of file that contains an unsupported feature.
     #[error("{name} cannot be used: {feature}; save it again as a plain {format} file")]
     Feature {

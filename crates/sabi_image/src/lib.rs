@@ -21,6 +21,7 @@
 //! ```
 
 mod blue_noise;
+mod declared_color;
 mod decode;
 mod decode_bmp;
 mod decode_exr;
@@ -41,6 +42,6 @@ pub use encode_exr::{ExrSamples, encode_exr};
 pub use encode_png::{PngData, PngOptions, encode_png};
 pub use encode_tga::encode_tga;
 pub use error::{ImageError, listed_layers};
-pub use picture::{DeclaredColorSpace, LinearPicture, Picture, Pixels};
+pub use picture::{DeclaredColorSpace, LinearPicture, Picture, PictureRemarks, Pixels, TransferCurve};
 pub use quantize::{DitheredRow, level, quantize_u8, quantize_u16, rounded};
 pub use size_limits::{DecodedSize, MAX_DECODED_BYTES, MAX_SIDE};

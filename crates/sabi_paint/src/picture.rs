@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec2;
-use sabi_image::{DeclaredColorSpace, ImageError, Picture, Pixels, decode};
+use sabi_image::{DeclaredColorSpace, ImageError, Picture, PictureRemarks, Pixels, decode};
 use serde::{Deserialize, Serialize};
 
 use mip_level::MipLevel;
@@ -117,12 +117,7 @@ impl StampPicture {
 
     /// Prepares a decoded picture.
     pub fn new(picture: &Picture) -> StampPicture {
-        let is_coded = match picture.color_space {
-            DeclaredColorSpace::Srgb => true,
-            DeclaredColorSpace::Linear => false,
-            DeclaredColorSpace::Unknown => !matches!(picture.pixels, Pixels::F32(_)),
-        };
-        let mut level = MipLevel::new(picture, is_coded);
+        let mut level = MipLevel::new(picture);
         let likely = level.likely_part();
         while level.size.iter().any(|side| *side > SIDE_LIMIT as usize) {
             level = level.halved();
@@ -154,6 +149,7 @@ impl StampPicture {
             channels: 2,
             pixels: Pixels::U8(alpha.iter().flat_map(|alpha| [255, *alpha]).collect()),
             color_space: DeclaredColorSpace::Srgb,
+            remarks: PictureRemarks::default(),
         })
     }
 
@@ -239,6 +235,7 @@ mod tests {
             channels: 4,
             pixels: Pixels::U8(pixels.as_flattened().to_vec()),
             color_space: DeclaredColorSpace::Unknown,
+            remarks: PictureRemarks::default(),
         })
     }
 

@@ -58,7 +58,7 @@ fn read(name: &str, ty: &ParamType, value: &Value, problems: &mut Vec<Problem>) 
     let problem = |expected| Problem::BadValue {
         param: name.to_owned(),
         expected,
-        found: value.to_string(),
+        found: format!("{value}{}", value.decimal_comma_advice()),
     };
     read.map_err(|expected| problems.push(problem(expected))).ok()
 }

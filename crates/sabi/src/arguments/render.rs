@@ -59,8 +59,8 @@ pub(crate) struct RenderArguments {
     /// Leave out the shade of the model on the ground
     #[arg(long, help_heading = "Picture")]
     pub(crate) no_ground: bool,
-    /// Exposure, stops
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0, value_parser = finite, help_heading = "Light")]
+    /// Exposure, stops from -32 to 32
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, value_parser = stops, help_heading = "Light")]
     pub(crate) exposure: f32,
     /// Glow around highlights and emission: the share of the light above white that spreads, 0 to 1. It never changes the
     /// alpha of a picture, and an .exr has none
@@ -235,6 +235,12 @@ fn finite(text: &str) -> Result<f32, String> {
         Ok(number) if number.is_finite() => Ok(number),
         _ => Err("it takes a number".to_owned()),
     }
+}
+
+/// Reads an exposure. From 128 stops on its factor would be infinite, and no light that Sabi keeps needs more than 32.
+fn stops(text: &str) -> Result<f32, String> {
+    let number = finite(text).ok().filter(|number| number.abs() <= 32.0);
+    number.ok_or_else(|| "it takes stops from -32 to 32".to_owned())
 }
 
 fn strength(text: &str) -> Result<f32, String> {

@@ -90,7 +90,7 @@ fn list<'a>(
     terminal: &Terminal,
 ) -> Result<(), Failure> {
     let paths = files.map(|file| arguments.output.join(file));
-    terminal.page(&paths.map(|path| path.display().to_string()).collect())
+    terminal.paths(paths)
 }
 
 /// Prints whether the maps of a bake have the same bytes as those that a report records.

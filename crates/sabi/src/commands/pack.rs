@@ -30,7 +30,7 @@ pub(crate) fn run(arguments: &PackArguments, trusted: &TrustedPaths, terminal: &
     if arguments.json {
         terminal.json(&report)?;
     } else {
-        terminal.data_line(&report.archive)?;
+        terminal.paths([&arguments.output])?;
     }
     summarize(arguments, &report, terminal);
     Ok(Exit::Done)

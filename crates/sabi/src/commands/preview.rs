@@ -27,6 +27,6 @@ pub(crate) fn run(arguments: &PreviewArguments, trusted: &TrustedPaths, terminal
     };
     drop(progress);
     terminal.warnings(&warnings);
-    terminal.data_line(arguments.output.display())?;
+    terminal.paths([&arguments.output])?;
     Ok(Exit::Done)
 }

@@ -58,8 +58,6 @@ pub(crate) fn run(arguments: &RenderArguments, trusted: &TrustedPaths, terminal:
     };
     drop(progress);
     terminal.warnings(&rendered.warnings);
-    for file in &rendered.files {
-        terminal.data_line(file.display())?;
-    }
+    terminal.paths(&rendered.files)?;
     Ok(Exit::Done)
 }

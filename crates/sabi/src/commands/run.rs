@@ -175,7 +175,7 @@ impl Run<'_> {
         if is_whole && self.lists_folders() {
             // The folder is printed as the plan names it.
             let folder = self.plan.items[at].folder(&PathBase::of_file(&self.arguments.plan));
-            self.terminal.data_line(folder.display())?;
+            self.terminal.paths([folder])?;
         }
         Ok(())
     }

@@ -21,7 +21,7 @@ pub(crate) fn run(arguments: &UnpackArguments, terminal: &Terminal) -> Result<Ex
     if arguments.json {
         terminal.json(&report)?;
     } else {
-        terminal.data_line(&report.graph)?;
+        terminal.paths([&report.graph_file])?;
     }
     advise(&report, terminal);
     Ok(Exit::Done)

@@ -330,6 +330,7 @@ fn an_option_that_makes_no_sense_is_named() {
         &["--turntable", "0"],
         &["--light", "40"],
         &["--exposure", "nan"],
+        &["--exposure", "128"],
         &["--displace=0"],
     ] {
         let run = render(&place, &[more, &["-o", "x.png"]].concat()).fails(2);

@@ -25,6 +25,15 @@ fn a_wrong_setting_is_refused_and_the_nearest_name_is_told() {
             "clouds.sabi: \"amount\" takes a number from 0 to 1, not a text",
         ),
         (
+            "amount=0,5",
+            "clouds.sabi: \"amount\" takes a number from 0 to 1, not \"0,5\"; write the decimal point, as in 0.5",
+        ),
+        (
+            "clouds.size=0,5",
+            "clouds.sabi: parameter 'size' of node 'clouds' (noise/simplex) takes a number from 0.0001 to 100, not \"0,5\"; \
+             write the decimal point, as in 0.5",
+        ),
+        (
             "amount=2",
             "clouds.sabi: \"amount\" is 2, but goes from 0 to 1; choose a value in that range",
         ),

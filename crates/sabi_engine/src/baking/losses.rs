@@ -44,11 +44,19 @@ fn left_out_sentence(left: &UnmappedChannels) -> Option<String> {
     })
 }
 
-/// Returns a sentence for each material whose emission is divided by a factor, for all its tiles together.
+/// Returns a sentence for each material whose emission is divided by a factor, for all its tiles together. Where the preset writes the
+/// same emission as OpenEXR, undivided, its documents apply the factor to the other file, and there is nothing to do.
 fn scaled_sentences(written: &WrittenMaps) -> Vec<String> {
     let mut found: BTreeMap<(&str, &str), (&str, f32, usize)> = BTreeMap::new();
     for output in &written.outputs {
         let Some(scale) = output.scale else { continue };
+        let is_undivided_beside = written.outputs.iter().any(|other| {
+            let is_same = other.preset == output.preset && other.material == output.material;
+            is_same && other.channel == output.channel && other.scale.is_none() && other.path.ends_with(".exr")
+        });
+        if is_undivided_beside {
+            continue;
+        }
         let of_material = (output.preset.as_str(), output.material.as_str());
         found.entry(of_material).or_insert((&output.path, scale, 0)).2 += 1;
     }

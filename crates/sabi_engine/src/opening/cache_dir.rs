@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::error::{EngineError, ErrorKind};
+use crate::opening::own_folder::SystemFolders;
 
 /// Default limit for the results of nodes, and for encoded maps, in a cache folder, in MiB each.
 const DEFAULT_BUDGET_MIB: u64 = 4096;
@@ -30,20 +31,49 @@ pub(crate) fn cache_budget_bytes() -> Result<u64, EngineError> {
 
 /// Returns `SABI_CACHE_DIR`, otherwise a `sabi` folder in the system's folder for caches; `None` if the system has none.
 pub fn default_cache_dir() -> Option<PathBuf> {
-    let variable = |name: &str| {
-        std::env::var_os(name)
-            .filter(|value| !value.is_empty())
-            .map(PathBuf::from)
-    };
-    if let Some(own) = variable("SABI_CACHE_DIR") {
-        return Some(own);
+    cache_dir(&SystemFolders::of_environment())
+}
+
+fn cache_dir(folders: &SystemFolders<'_>) -> Option<PathBuf> {
+    let own = folders.own("SABI_CACHE_DIR");
+    own.or_else(|| {
+        Some(
+            folders
+                .system(["LOCALAPPDATA", "Library/Caches", "XDG_CACHE_HOME", ".cache"])?
+                .join("sabi"),
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use super::cache_dir;
+    use crate::opening::own_folder::SystemFolders;
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn relative_folders_of_the_system_are_ignored() {
+        let found = |own: &str, xdg: &str, home: &str| {
+            let variable = |name: &str| match name {
+                "SABI_CACHE_DIR" => Some(own.into()),
+                "XDG_CACHE_HOME" => Some(xdg.into()),
+                "HOME" => Some(home.into()),
+                _ => None,
+            };
+            cache_dir(&SystemFolders { variable: &variable })
+        };
+        assert_eq!(found("", "/x", "/h"), Some(PathBuf::from("/x/sabi")));
+        for ignored in ["", "relative", "./x", "~/x"] {
+            assert_eq!(
+                found("", ignored, "/h"),
+                Some(PathBuf::from("/h/.cache/sabi")),
+                "{ignored}"
+            );
+        }
+        assert_eq!(found("", "x", "h"), None);
+        // The variable of Sabi itself may start from the current folder.
+        assert_eq!(found("own", "/x", "/h"), Some(PathBuf::from("own")));
     }
-    let system = if cfg!(windows) {
-        variable("LOCALAPPDATA")
-    } else if cfg!(target_os = "macos") {
-        variable("HOME").map(|home| home.join("Library/Caches"))
-    } else {
-        variable("XDG_CACHE_HOME").or_else(|| variable("HOME").map(|home| home.join(".cache")))
-    };
-    system.map(|system| system.join("sabi"))
 }

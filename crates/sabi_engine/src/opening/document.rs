@@ -6,7 +6,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, io_reason, read_plain};
+use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, io_reason, is_git_lfs_pointer, read_plain};
 use sabi_graph::{
     Document, FlatGraph, FlattenError, Locator, NodeRef, Overrides, ResultOrigin, flatten_and_find, unknown_keys,
 };
@@ -335,9 +335,28 @@ fn text_of(bytes: Vec<u8>) -> Result<String, EngineError> {
         let why = "this is a zip archive and no graph; if it is a packed graph, unpack it first with 'sabi unpack'";
         return Err(EngineError::new(ErrorKind::BadInput, why));
     }
+    if is_git_lfs_pointer(&bytes) {
+        let why = "this is a Git LFS pointer instead of the graph itself; run `git lfs pull` where it came from";
+        return Err(EngineError::new(ErrorKind::BadInput, why));
+    }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let why = format!("the file is not text: byte {at} is not UTF-8; graphs are JSON");
         EngineError::new(ErrorKind::BadInput, why).caused_by(error)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::text_of;
+
+    #[test]
+    fn a_pointer_of_git_lfs_is_told_instead_of_a_fault_of_json() {
+        let pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n";
+        assert_eq!(
+            text_of(pointer.to_vec()).unwrap_err().to_string(),
+            "this is a Git LFS pointer instead of the graph itself; run `git lfs pull` where it came from"
+        );
+        assert_eq!(text_of(b"{}".to_vec()).unwrap(), "{}");
+    }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use sabi_files::{Cache, CacheKind, Unread, read_plain};
 use sabi_graph::nearest;
-use sabi_image::{DeclaredColorSpace, Pixels};
+use sabi_image::Pixels;
 use sabi_view::{Environment, Panorama};
 
 use crate::error::{EngineError, ErrorKind};
@@ -114,7 +114,7 @@ fn key_of(gpu: &Gpu, panorama: &Panorama) -> [u8; 32] {
 }
 
 /// Reads a built-in environment by its name, or a latitude-longitude picture by its path. OpenEXR and Radiance HDR store
-/// linear light; other pictures count as sRGB unless they declare that they are linear. Also returns warnings.
+/// linear light; other pictures count as sRGB unless they declare another curve. Also returns warnings.
 pub fn read_panorama(choice: &str) -> Result<(Panorama, Vec<String>), EngineError> {
     if let Some((name, bytes)) = BUILT_IN.iter().find(|(name, _)| *name == choice) {
         return decoded(name, bytes);
@@ -174,10 +174,12 @@ fn unreadable(path: &Path, unread: Unread) -> EngineError {
 fn decoded(name: &str, bytes: &[u8]) -> Result<(Panorama, Vec<String>), EngineError> {
     let picture = sabi_image::decode(name, bytes)?;
     let is_light = matches!(picture.pixels, Pixels::F32(_));
-    let is_linear = is_light || picture.color_space == DeclaredColorSpace::Linear;
-    let linear = picture.linear_rgba(!is_linear);
+    let linear = picture.linear_rgba(picture.color_curve());
+    let of_file = picture.remarks.values.iter().chain(&picture.remarks.color);
+    let of_file: Vec<String> = of_file.map(|remark| format!("it {remark}")).collect();
     drop(picture);
     let (panorama, mut remarks) = Panorama::new(linear.width, linear.height, &linear.rgba)?;
+    remarks.extend(of_file);
     if let [shown, others @ ..] = sabi_image::layer_names(name, bytes)?.as_slice()
         && !others.is_empty()
     {

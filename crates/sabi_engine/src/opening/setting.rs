@@ -1,8 +1,11 @@
 //! Values set from outside, as `NAME=VALUE` on the command line.
 
-use sabi_graph::{FlatGraph, Overrides, Value};
+use std::error::Error as _;
+
+use sabi_graph::{FlatGraph, FlattenError, Overrides, Value};
 use sabi_nodes::kind::ParamType;
 
+use crate::error::EngineError;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 
@@ -33,8 +36,21 @@ pub(crate) fn read_typed(open: &OpenGraph, kinds: &Kinds, overrides: &Overrides)
             };
             // Flattening does not check values of parameters. Therefore the parameters that are set are those that differ
             // between two probes.
+            let has_comma = !typed.decimal_comma_advice().is_empty();
             let value = match (with(Value::Bool(false)), with(Value::Bool(true))) {
-                (Ok(off), Ok(on)) => parsed(&changed_params(&off, &on, kinds), text),
+                (Ok(off), Ok(on)) => {
+                    let types = changed_params(&off, &on, kinds);
+                    parsed(&types, text).or_else(|| (has_comma && are_lone_numbers(&types)).then(|| typed.clone()))
+                }
+                // A number with a decimal comma stays a text for a knob of one number, so that the message shows it.
+                (Err(error), _) if has_comma => {
+                    let ends = range_of(&error).map(|range| range.map(|end| with(Value::Number(end))));
+                    let types = match &ends {
+                        Some([Ok(low), Ok(high)]) => changed_params(low, high, kinds),
+                        _ => Vec::new(),
+                    };
+                    are_lone_numbers(&types).then(|| typed.clone())
+                }
                 // It sets a knob with a range or a knob of a group instance. If it is the name of a variant, it stays a text.
                 _ => (with(likely_value(text)).is_err() && with(typed.clone()).is_ok()).then(|| typed.clone()),
             };
@@ -55,6 +71,19 @@ fn changed_params(off: &FlatGraph, on: &FlatGraph, kinds: &Kinds) -> Vec<ParamTy
         set.filter_map(|(name, _)| kinds.param_type(&on.kind, name))
     });
     types.collect()
+}
+
+/// Returns the range of a knob that refused a value of another type.
+fn range_of(error: &EngineError) -> Option<[f64; 2]> {
+    match error.source()?.downcast_ref()? {
+        FlattenError::NotANumber { low, high, .. } => Some([low.parse().ok()?, high.parse().ok()?]),
+        _ => None,
+    }
+}
+
+/// Returns true if there are parameters and each takes a single number.
+fn are_lone_numbers(types: &[ParamType]) -> bool {
+    !types.is_empty() && types.iter().all(|ty| ty.components() == 1 && !ty.is_text())
 }
 
 /// Parses a text as a value that all these parameters accept; `None` if there is no such value.

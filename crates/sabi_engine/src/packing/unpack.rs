@@ -1,6 +1,6 @@
 //! `unpack_graph`: a packed graph becomes a folder.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sabi_files::archive::{ArchiveError, UnpackedArchive};
 use sabi_files::{Unread, read_plain};
@@ -19,6 +19,9 @@ pub struct UnpackReport {
     pub folder: String,
     /// Path of the graph.
     pub graph: String,
+    /// The same path; the other may have replacements for what is no text.
+    #[serde(skip)]
+    pub graph_file: PathBuf,
     /// Path of the model, if one was packed.
     pub model: Option<String>,
     /// All files, as paths from the folder.
@@ -67,6 +70,7 @@ pub fn unpack_graph(archive: &Path, folder: &Path, progress: &dyn Progress) -> R
     Ok(UnpackReport {
         folder: folder.display().to_string(),
         graph: path(&manifest.graph),
+        graph_file: folder.join(&manifest.graph),
         model: manifest.model.as_ref().map(path),
         files,
     })

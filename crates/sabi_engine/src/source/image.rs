@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use sabi_gpu::{GpuError, ImageConstants, ImageShader, SourceCanvas, SourceDraw, SourceShader};
 use sabi_graph::PortType;
-use sabi_image::{DeclaredColorSpace, Picture, Pixels, listed_layers};
+use sabi_image::{Pixels, listed_layers};
 use sabi_plan::{NoSuchValue, SourceKind, SourcePort, SourceStep};
 use sabi_surface::model::Wrap;
 
-use super::mip_chain::PixelReading;
+use super::mip_chain::{PixelCurve, PixelReading};
 use super::picture_table::PictureTable;
 use super::projection::Projection;
 use super::session_pictures::OpenPicture;
@@ -115,18 +115,32 @@ impl ImageOutput {
         }
     }
 
-    /// Returns true if values are decoded from sRGB.
-    fn is_srgb(self, choice: usize, picture: &Picture) -> bool {
+    /// Returns the curve of the values.
+    fn curve(self, choice: ColorSpaceChoice) -> PixelCurve {
         match (choice, self) {
-            (_, ImageOutput::Alpha | ImageOutput::Slope) | (2, _) => false,
-            (1, _) => true,
-            (_, ImageOutput::Mask | ImageOutput::Channel(_)) => false,
-            (_, ImageOutput::Color) => match picture.color_space {
-                DeclaredColorSpace::Srgb => true,
-                DeclaredColorSpace::Linear => false,
-                DeclaredColorSpace::Unknown => !matches!(picture.pixels, Pixels::F32(_)),
-            },
+            (_, ImageOutput::Alpha | ImageOutput::Slope) | (ColorSpaceChoice::Linear, _) => PixelCurve::Linear,
+            (ColorSpaceChoice::Srgb, _) => PixelCurve::Srgb,
+            (ColorSpaceChoice::Auto, ImageOutput::Mask | ImageOutput::Channel(_)) => PixelCurve::Linear,
+            (ColorSpaceChoice::Auto, ImageOutput::Color) => PixelCurve::Declared,
         }
+    }
+}
+
+/// Value of the parameter `color_space`.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum ColorSpaceChoice {
+    Auto,
+    Srgb,
+    Linear,
+}
+
+impl ColorSpaceChoice {
+    fn of(step: &SourceStep) -> Result<ColorSpaceChoice, NoSuchValue> {
+        Ok(match step.values.index("color_space")? {
+            1 => ColorSpaceChoice::Srgb,
+            2 => ColorSpaceChoice::Linear,
+            _ => ColorSpaceChoice::Auto,
+        })
     }
 }
 
@@ -144,9 +158,9 @@ pub(super) fn draw(
 ) -> Result<(), GpuError> {
     let of = ImageOutput::of(output);
     let unread = |error| unreadable(step, &error);
-    let choice = step.values.index("color_space").map_err(unread)?;
+    let choice = ColorSpaceChoice::of(step).map_err(unread)?;
     let reading = PixelReading {
-        is_srgb: of.is_srgb(choice, &open.picture),
+        curve: of.curve(choice),
         // Channels and slopes are values as stored in the file.
         by_alpha: of == ImageOutput::Color && step.values.index("alpha_is").map_err(unread)? == 0,
     };
@@ -228,11 +242,12 @@ fn probable_mistakes(open: &OpenPicture, step: &SourceStep, of: ImageOutput) -> 
             listed_layers(others)
         ));
     }
-    if open.has_non_numbers {
-        sentences.push(format!(
-            "node '{}' ({NAME}): {file} holds infinite or undefined numbers, which count as 0",
-            step.id
-        ));
-    }
+    let remarks = &open.picture.remarks;
+    sentences.extend(
+        remarks
+            .values
+            .iter()
+            .map(|remark| format!("node '{}' ({NAME}): {file} {remark}", step.id)),
+    );
     Ok(sentences)
 }

@@ -3,34 +3,66 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use sabi_color::linear_from_srgb;
-use sabi_image::{Picture, Pixels};
+use sabi_image::{Picture, Pixels, TransferCurve};
+
+/// Curve by which the codes of a picture are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PixelCurve {
+    /// Codes are linear values.
+    Linear,
+    /// The curve of sRGB.
+    Srgb,
+    /// The curve of [`Picture::color_curve`].
+    Declared,
+}
 
 /// Options for reading the values of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct PixelReading {
-    /// True if sRGB is decoded in all channels except alpha.
-    pub(crate) is_srgb: bool,
+    /// Curve of all channels except alpha.
+    pub(crate) curve: PixelCurve,
     /// True if colors are weighted by alpha in averages, as is right for colors next to holes; false if alpha is an independent value.
     pub(crate) by_alpha: bool,
 }
 
 impl PixelReading {
     /// All combinations, each at the index of its number.
-    pub(super) const ALL: [PixelReading; 4] = [
-        PixelReading::of(false, false),
-        PixelReading::of(true, false),
-        PixelReading::of(false, true),
-        PixelReading::of(true, true),
+    pub(super) const ALL: [PixelReading; 6] = [
+        PixelReading::of(PixelCurve::Linear, false),
+        PixelReading::of(PixelCurve::Srgb, false),
+        PixelReading::of(PixelCurve::Declared, false),
+        PixelReading::of(PixelCurve::Linear, true),
+        PixelReading::of(PixelCurve::Srgb, true),
+        PixelReading::of(PixelCurve::Declared, true),
     ];
 
-    const fn of(is_srgb: bool, by_alpha: bool) -> PixelReading {
-        PixelReading { is_srgb, by_alpha }
+    const fn of(curve: PixelCurve, by_alpha: bool) -> PixelReading {
+        PixelReading { curve, by_alpha }
     }
 
-    /// Number of the way, below four.
+    /// Number of the way, below six.
     pub(super) fn number(self) -> usize {
-        usize::from(self.is_srgb) + 2 * usize::from(self.by_alpha)
+        self.curve as usize + 3 * usize::from(self.by_alpha)
+    }
+
+    /// Returns the curve for a picture.
+    fn curve_of(self, picture: &Picture) -> TransferCurve {
+        match self.curve {
+            PixelCurve::Linear => TransferCurve::Linear,
+            PixelCurve::Srgb => TransferCurve::Srgb,
+            PixelCurve::Declared => picture.color_curve(),
+        }
+    }
+
+    /// Returns the same options with the declared curve of a picture replaced by its name where it has one, so that the same values
+    /// have the same options.
+    pub(super) fn named(self, picture: &Picture) -> PixelReading {
+        let curve = match self.curve_of(picture) {
+            TransferCurve::Linear => PixelCurve::Linear,
+            TransferCurve::Srgb => PixelCurve::Srgb,
+            TransferCurve::Power(_) => PixelCurve::Declared,
+        };
+        PixelReading { curve, ..self }
     }
 }
 
@@ -42,6 +74,7 @@ pub(crate) struct MipChain {
     /// Linear value of each 8-bit code.
     code_table: Option<[f32; 256]>,
     reading: PixelReading,
+    curve: TransferCurve,
     smaller: Vec<Arc<MipLevel>>,
 }
 
@@ -54,16 +87,14 @@ struct MipLevel {
 impl MipChain {
     /// Creates the chain of a picture without any smaller copies.
     pub(crate) fn new(picture: Arc<Picture>, reading: PixelReading) -> MipChain {
-        let is_srgb = reading.is_srgb;
-        let linear = |code: usize| {
-            let value = code as f32 / 255.0;
-            if is_srgb { linear_from_srgb(value) } else { value }
-        };
+        let curve = reading.curve_of(&picture);
+        let linear = |code: usize| curve.linear(code as f32 / 255.0);
         let code_table = matches!(picture.pixels, Pixels::U8(_)).then(|| std::array::from_fn(linear));
         MipChain {
             picture,
             code_table,
             reading,
+            curve,
             smaller: Vec::new(),
         }
     }
@@ -142,13 +173,7 @@ impl MipChain {
     /// 0.
     fn value(&self, index: usize, channel: usize) -> f32 {
         let is_alpha = matches!((self.picture.channels, channel), (2, 1) | (4, 3));
-        let decode = |value: f32| {
-            if self.reading.is_srgb && !is_alpha {
-                linear_from_srgb(value)
-            } else {
-                value
-            }
-        };
+        let decode = |value: f32| if is_alpha { value } else { self.curve.linear(value) };
         match &self.picture.pixels {
             Pixels::U8(codes) => match &self.code_table {
                 Some(table) if !is_alpha => table[usize::from(codes[index])],
@@ -269,11 +294,11 @@ impl PixelCoverage {
 
 #[cfg(test)]
 mod tests {
-    use sabi_image::DeclaredColorSpace;
+    use sabi_image::{DeclaredColorSpace, PictureRemarks};
 
     use super::*;
 
-    const PLAIN: PixelReading = PixelReading::of(false, false);
+    const PLAIN: PixelReading = PixelReading::of(PixelCurve::Linear, false);
 
     #[test]
     fn clear_pixels_give_no_color_to_averages_of_opaque_ones() {
@@ -292,8 +317,9 @@ mod tests {
                 channels: 4,
                 pixels: Pixels::F32(pixels.clone()),
                 color_space: DeclaredColorSpace::Linear,
+                remarks: PictureRemarks::default(),
             });
-            let levels = MipChain::new(picture.clone(), PixelReading::of(false, true)).down_to(1);
+            let levels = MipChain::new(picture.clone(), PixelReading::of(PixelCurve::Linear, true)).down_to(1);
             let second = if size[0] == 4 { (1, 0) } else { (0, 1) };
             assert_eq!(levels.pixel(1, 0, 0), [1.0, 0.0, 0.0, 0.5]);
             assert_eq!(levels.pixel(1, second.0, second.1), [0.5, 0.5, 1.0, 0.0]);
@@ -305,14 +331,44 @@ mod tests {
                 channels: 4,
                 pixels: Pixels::F32(pixels[..12].to_vec()),
                 color_space: DeclaredColorSpace::Linear,
+                remarks: PictureRemarks::default(),
             });
-            let color = MipChain::new(odd, PixelReading::of(false, true))
+            let color = MipChain::new(odd, PixelReading::of(PixelCurve::Linear, true))
                 .down_to(1)
                 .pixel(1, 0, 0);
             assert_eq!(color[..3], [1.0, 0.0, 0.0]);
             // Colors are not weighted if alpha is an independent value.
             let plain = MipChain::new(picture, PLAIN).down_to(1);
             assert_eq!(plain.pixel(1, 0, 0), [0.5, 0.0, 0.0, 0.5]);
+        }
+    }
+
+    #[test]
+    fn a_declared_power_is_read_as_such_and_other_declared_curves_by_their_names() {
+        let picture = |color_space: DeclaredColorSpace| {
+            Arc::new(Picture {
+                width: 1,
+                height: 1,
+                channels: 2,
+                pixels: Pixels::U8(vec![51, 51]),
+                color_space,
+                remarks: PictureRemarks::default(),
+            })
+        };
+        let declared = PixelReading::of(PixelCurve::Declared, false);
+        let square = picture(DeclaredColorSpace::Power(2.0));
+        assert_eq!(declared.named(&square), declared);
+        let [red, _, _, alpha] = MipChain::new(square, declared).pixel(0, 0, 0);
+        assert!((red - 0.04).abs() < 1e-6 && (alpha - 0.2).abs() < 1e-6, "{red} {alpha}");
+        for (space, curve) in [
+            (DeclaredColorSpace::Srgb, PixelCurve::Srgb),
+            (DeclaredColorSpace::Unknown, PixelCurve::Srgb),
+            (DeclaredColorSpace::Linear, PixelCurve::Linear),
+        ] {
+            assert_eq!(declared.named(&picture(space)).curve, curve, "{space:?}");
+        }
+        for (number, reading) in PixelReading::ALL.into_iter().enumerate() {
+            assert_eq!(reading.number(), number);
         }
     }
 
@@ -324,6 +380,7 @@ mod tests {
             channels: 1,
             pixels: Pixels::F32(samples.map(|(x, y)| value(x, y)).collect()),
             color_space: DeclaredColorSpace::Linear,
+            remarks: PictureRemarks::default(),
         })
     }
 

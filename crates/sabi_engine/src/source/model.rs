@@ -11,7 +11,7 @@ use sabi_surface::model::{Model, ModelMaterial, TextureRef};
 
 use super::hash_apart;
 use super::material_canvas::{CoordinateTables, MaterialCanvas};
-use super::mip_chain::PixelReading;
+use super::mip_chain::{PixelCurve, PixelReading};
 use super::model_finish::{self, FinishTextures};
 use super::model_pictures::open_pictures;
 use super::model_textures::{ModelTexture, Product};
@@ -55,12 +55,12 @@ pub(crate) fn kind() -> SourceKind {
 
 /// Colors whose alpha, if there is one, has no meaning.
 const COLORS: PixelReading = PixelReading {
-    is_srgb: true,
+    curve: PixelCurve::Srgb,
     by_alpha: false,
 };
 /// Values that are no colors.
 const VALUES: PixelReading = PixelReading {
-    is_srgb: false,
+    curve: PixelCurve::Linear,
     by_alpha: false,
 };
 
@@ -229,6 +229,12 @@ fn open_materials<'a>(
             .as_ref()
             .map_err(|why| warnings.push(why.clone()))
             .ok()?;
+        for remark in &picture.picture.remarks.values {
+            let remark = format!("the {what} picture {name} {remark}");
+            if !warnings.contains(&remark) {
+                warnings.push(remark);
+            }
+        }
         let other = model.mesh.texture_uvs.iter().find(|other| other.set == set);
         let mut texture = ModelTexture::new(name, picture, texture, other, reading, size);
         texture.missing = missing;

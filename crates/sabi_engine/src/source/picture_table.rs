@@ -8,7 +8,7 @@ use sabi_gpu::{COPY_ROWS, DeviceTable, GpuError, PictureConstants, PictureStorag
 use sabi_image::Pixels;
 use sabi_surface::model::Wrap;
 
-use super::mip_chain::{MipChain, PixelReading};
+use super::mip_chain::{MipChain, PixelCurve, PixelReading};
 use super::session_pictures::OpenPicture;
 
 /// Size limit of the tables that are kept from run to run. A single larger table is kept alone.
@@ -125,11 +125,12 @@ impl PictureTables {
 
 /// Returns the storage of the picture itself. Halves store colors of 8 bits with an error of up to an eighth of a step.
 fn storage_of(levels: &MipChain) -> PictureStorage {
-    match (levels.pixels(), levels.reading().is_srgb) {
-        (Pixels::U8(_), true) => PictureStorage::Halves,
-        (Pixels::U8(_), false) => PictureStorage::Codes8,
-        (Pixels::U16(_), false) => PictureStorage::Codes16,
-        (Pixels::U16(_), true) | (Pixels::F32(_), _) => PictureStorage::Floats,
+    let is_linear = levels.reading().curve == PixelCurve::Linear;
+    match (levels.pixels(), is_linear) {
+        (Pixels::U8(_), false) => PictureStorage::Halves,
+        (Pixels::U8(_), true) => PictureStorage::Codes8,
+        (Pixels::U16(_), true) => PictureStorage::Codes16,
+        (Pixels::U16(_), false) | (Pixels::F32(_), _) => PictureStorage::Floats,
     }
 }
 
@@ -221,7 +222,7 @@ fn rgba<C: Copy + Default>(codes: &[C], channels: usize, pixel: usize, full: C) 
 
 #[cfg(test)]
 mod tests {
-    use sabi_image::{DeclaredColorSpace, Picture};
+    use sabi_image::{DeclaredColorSpace, Picture, PictureRemarks};
 
     use super::*;
 
@@ -232,9 +233,10 @@ mod tests {
             channels,
             pixels,
             color_space: DeclaredColorSpace::Unknown,
+            remarks: PictureRemarks::default(),
         };
         let reading = PixelReading {
-            is_srgb,
+            curve: if is_srgb { PixelCurve::Srgb } else { PixelCurve::Linear },
             by_alpha: false,
         };
         MipChain::new(Arc::new(picture), reading).down_to(1)

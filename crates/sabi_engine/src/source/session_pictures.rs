@@ -133,23 +133,18 @@ impl fmt::Debug for SessionPictures {
 pub(crate) struct OpenPicture {
     /// Values as the file stores them.
     pub(crate) picture: Arc<Picture>,
-    /// True if it holds infinite or undefined numbers.
-    pub(crate) has_non_numbers: bool,
     /// Layers of its file, the default one first; empty for files other than OpenEXR.
     pub(crate) layers: Vec<String>,
     /// True if a pixel is not opaque.
     is_transparent: bool,
     /// Mip chains, as far down as they were needed, by the number of the reading options.
-    levels: [Mutex<MipChain>; 4],
+    levels: [Mutex<MipChain>; 6],
 }
 
 impl OpenPicture {
     fn new(picture: Picture, layers: Vec<String>) -> OpenPicture {
-        let is_odd = |values: &[f32]| values.iter().any(|value| !value.is_finite());
-        let has_non_numbers = matches!(&picture.pixels, Pixels::F32(values) if is_odd(values));
         let picture = Arc::new(picture);
         OpenPicture {
-            has_non_numbers,
             layers,
             is_transparent: is_transparent(&picture),
             levels: PixelReading::ALL.map(|reading| Mutex::new(MipChain::new(picture.clone(), reading))),
@@ -172,7 +167,7 @@ impl OpenPicture {
     pub(crate) fn reading(&self, wish: PixelReading) -> PixelReading {
         PixelReading {
             by_alpha: wish.by_alpha && self.is_transparent,
-            ..wish
+            ..wish.named(&self.picture)
         }
     }
 

@@ -141,7 +141,12 @@ fn heights_are_exact_and_their_range_spans_the_charts() {
     );
     assert_eq!(written[0].outputs[0].range, None);
     let coded = decode("h.png", &fs::read(folder.path().join("wood_height.png")).unwrap()).unwrap();
-    for (value, texel) in coded.linear_rgba(false).rgba.iter().zip(&height.data) {
+    for (value, texel) in coded
+        .linear_rgba(sabi_image::TransferCurve::Linear)
+        .rgba
+        .iter()
+        .zip(&height.data)
+    {
         let expected = texel.clamp(low, high);
         assert!((low + value[0] * (high - low) - expected).abs() < 1e-5);
     }
@@ -194,7 +199,10 @@ fn what_is_no_number_is_counted_and_made_neutral() {
     let (written, _) = bake(folder.path(), &SetOptions::raw().unwrap(), &[(Channel::Height, height)]);
     assert_eq!(written[0].not_finite, 2);
     let exact = decode("h.exr", &fs::read(folder.path().join("wood_height.exr")).unwrap()).unwrap();
-    assert_eq!(exact.linear_rgba(false).rgba[owned + 1], [0.0, 0.0, 0.0, 1.0]);
+    assert_eq!(
+        exact.linear_rgba(sabi_image::TransferCurve::Linear).rgba[owned + 1],
+        [0.0, 0.0, 0.0, 1.0]
+    );
 }
 
 #[test]

@@ -89,7 +89,10 @@ impl<'a> ExposedSettings<'a> {
                     });
                 }
                 None => {
-                    let value = part.type_with_article().to_owned();
+                    let value = match part.decimal_comma_advice() {
+                        "" => part.type_with_article().to_owned(),
+                        advice => format!("{part}{advice}"),
+                    };
                     return Err(FlattenError::NotANumber {
                         knob,
                         value,

@@ -178,6 +178,10 @@ fn an_error_about_an_override_lists_the_existing_names() {
             "\"amount\" takes a number from 0 to 1, not a text",
         ),
         (
+            set("amount", "0,5"),
+            "\"amount\" takes a number from 0 to 1, not \"0,5\"; write the decimal point, as in 0.5",
+        ),
+        (
             set("amount", f64::NAN),
             "the value of \"amount\" cannot be kept: numbers must be finite and below 3.4e38, lists nested at most \
              64 levels",

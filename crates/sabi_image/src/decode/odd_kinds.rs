@@ -138,6 +138,37 @@ fn cmyk_and_progressive_jpegs_are_read_as_rgb() {
 }
 
 #[test]
+fn kinds_of_jpeg_that_are_not_read_are_not_called_damaged() {
+    let baseline = from_hexadecimal(CMYK_JPEG);
+    let frame = baseline.windows(2).position(|mark| mark == [0xff, 0xc0]).unwrap();
+    let told = |marker: u8, precision: u8| {
+        let mut file = baseline.clone();
+        file[frame + 1] = marker;
+        file[frame + 4] = precision;
+        decode("a.jpg", &file).unwrap_err().to_string()
+    };
+    // ITU-T T.81, table B.1, and T.87 for JPEG-LS.
+    for (marker, precision, feature) in [
+        (0xc1, 12, "it has 12 bits for each sample, which are not read"),
+        (0xc3, 8, "it is a lossless JPEG (SOF3), which is not read"),
+        (0xc9, 8, "it has arithmetic coding (SOF9), which is not read"),
+        (0xca, 8, "it has arithmetic coding (SOF10), which is not read"),
+        (0xc5, 8, "it is a hierarchical JPEG (SOF5), which is not read"),
+        (0xf7, 8, "it is a JPEG-LS file (SOF55), which is not read"),
+    ] {
+        let expected = format!("a.jpg cannot be used: {feature}; save it again as a plain JPEG file");
+        assert_eq!(told(marker, precision), expected);
+        let mut file = baseline.clone();
+        (file[frame + 1], file[frame + 4]) = (marker, precision);
+        assert_eq!(check_header("a.jpg", &file).unwrap_err().to_string(), expected);
+    }
+    assert!(
+        told(0xc0, 77).starts_with("a.jpg is a damaged JPEG file"),
+        "a precision that does not exist"
+    );
+}
+
+#[test]
 fn the_fourth_byte_of_a_tga_is_alpha_unless_it_is_none_and_says_so() {
     // Two pixels from the top left: blue, green, red and a fourth byte, of which so many bits are alpha.
     let file = |bits: u8, alphas: [u8; 2]| {
@@ -149,7 +180,8 @@ fn the_fourth_byte_of_a_tga_is_alpha_unless_it_is_none_and_says_so() {
     let opaque = (3, Pixels::U8(vec![10, 20, 30, 40, 50, 60]));
     assert_eq!(file(0, [0, 0]), opaque);
     assert_eq!(file(0, [0, 9]), (4, Pixels::U8(vec![10, 20, 30, 0, 40, 50, 60, 9])));
-    assert_eq!(file(8, [0, 0]), (4, Pixels::U8(vec![10, 20, 30, 0, 40, 50, 60, 0])));
+    assert_eq!(file(8, [0, 0]), opaque);
+    assert_eq!(file(8, [0, 9]), (4, Pixels::U8(vec![10, 20, 30, 0, 40, 50, 60, 9])));
 }
 
 #[test]
@@ -244,7 +276,7 @@ fn exr_files_of_every_layout_are_read() {
 }
 
 #[test]
-fn infinity_and_not_a_number_are_replaced_by_finite_numbers() {
+fn infinity_and_not_a_number_are_replaced_by_finite_numbers_and_counted() {
     let mut values = vec![1.0; 16];
     values[..3].copy_from_slice(&[f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
     let picture = decode(
@@ -256,6 +288,16 @@ fn infinity_and_not_a_number_are_replaced_by_finite_numbers() {
         panic!("floats")
     };
     assert_eq!(samples[..4], [0.0, 65504.0, -65504.0, 1.0]);
+    assert_eq!(
+        picture.remarks.values,
+        [
+            "has 3 pixels with infinite or undefined numbers; infinite ones count as 65504 and undefined ones as 0, so save it again \
+             without them"
+        ]
+    );
+    values[..3].fill(2.0);
+    let finite = crate::encode_exr(4, 4, &[("Y", &values)], crate::ExrSamples::Float).unwrap();
+    assert_eq!(decode("a.exr", &finite).unwrap().remarks, PictureRemarks::default());
 }
 
 #[test]

@@ -2,6 +2,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::*;
+use crate::declared_color::profile_chunk;
 
 fn png_bytes(
     color: png::ColorType,
@@ -62,13 +63,13 @@ fn chunks_declare_the_transfer_curve_of_a_png() {
         DeclaredColorSpace::Srgb
     );
     assert_eq!(
-        with(|e| e.set_source_gamma(png::ScaledFloat::new(0.7))),
-        DeclaredColorSpace::Unknown
+        with(|e| e.set_source_gamma(png::ScaledFloat::new(0.5))),
+        DeclaredColorSpace::Power(2.0)
     );
 }
 
 #[test]
-fn a_color_profile_is_detected_without_unpacking_it() {
+fn a_huge_color_profile_is_told_without_unpacking_it() {
     let mut info = png::Info::with_size(2, 2);
     info.color_type = png::ColorType::Grayscale;
     info.bit_depth = png::BitDepth::Eight;
@@ -77,16 +78,24 @@ fn a_color_profile_is_detected_without_unpacking_it() {
     let encoder = png::Encoder::with_info(&mut file, info).unwrap();
     encoder.write_header().unwrap().write_image_data(&[9; 4]).unwrap();
     assert!(file.len() < 1 << 16, "a small file");
-    assert!(has_profile(&file) && !has_profile(&file[..40]) && !has_profile(b""));
+    assert!(profile_chunk(&file).is_some());
+    assert_eq!([&file[..40], b""].map(profile_chunk), [None; 2]);
     let picture = decode("profile.png", &file).unwrap();
     assert_eq!(
         (picture.pixels, picture.color_space),
         (Pixels::U8(vec![9; 4]), DeclaredColorSpace::Unknown)
     );
-    // The content of the profile does not matter, nor do other chunks.
+    assert_eq!(
+        picture.remarks.color,
+        [
+            "declares a color profile whose curves are not simple ones (iCCP), which Sabi does not apply; convert the picture to sRGB \
+             to see the same colors"
+        ]
+    );
+    // The same for a profile that cannot be unpacked.
     let start = file.windows(4).position(|window| window == b"iCCP").unwrap();
     file[start + 8..start + 200].fill(7);
-    assert!(has_profile(&file));
+    assert_eq!(decode("profile.png", &file).unwrap().remarks, picture.remarks);
 }
 
 fn encoded(format: ImageFormat) -> Vec<u8> {
@@ -116,7 +125,7 @@ fn the_other_formats_are_read_by_content() {
     for (name, format) in FORMATS {
         let picture = decode(name, &encoded(format)).unwrap();
         assert_eq!((picture.width, picture.height, picture.channels), (40, 30, 3), "{name}");
-        let first = picture.linear_rgba(false).rgba[20];
+        let first = picture.linear_rgba(crate::TransferCurve::Linear).rgba[20];
         assert!(
             (first[0] - 120.0 / 255.0).abs() < 0.03 && (first[2] - 99.0 / 255.0).abs() < 0.03,
             "{name}: {first:?}"
@@ -190,6 +199,13 @@ fn errors_are_clear_sentences() {
         says("a.tif", b"II*\0rest"),
         "a.tif is a TIFF picture, which Sabi does not read; save it as PNG, JPEG, WebP, TGA, BMP, HDR or OpenEXR and use \
          that file"
+    );
+    assert_eq!(
+        says(
+            "a.png",
+            b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n"
+        ),
+        "a.png is a Git LFS pointer instead of the picture itself; run `git lfs pull` where it came from"
     );
     assert!(says("a.png", b"hello").starts_with("a.png is no picture of a known kind"));
     for (bytes, kind) in [

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 use sabi_color::srgb_from_linear;
-use sabi_image::Picture;
+use sabi_image::{Picture, TransferCurve};
 
 use super::{PictureEnds, PicturePart};
 
@@ -35,9 +35,11 @@ fn pixel([red, green, blue, alpha]: [f32; 4], is_coded: bool) -> Pixel {
 }
 
 impl MipLevel {
-    /// Converts a decoded picture at its full size. `is_coded` is true for colors that are encoded as sRGB.
-    pub(super) fn new(picture: &Picture, is_coded: bool) -> MipLevel {
-        let linear = picture.linear_rgba(is_coded).rgba;
+    /// Converts a decoded picture at its full size. Colors are read as it declares.
+    pub(super) fn new(picture: &Picture) -> MipLevel {
+        let curve = picture.color_curve();
+        let is_coded = curve != TransferCurve::Linear;
+        let linear = picture.linear_rgba(curve).rgba;
         MipLevel {
             size: [picture.width, picture.height].map(|side| side.max(1) as usize),
             pixels: linear.iter().map(|linear| pixel(*linear, is_coded)).collect(),

@@ -101,7 +101,7 @@ fn invalid_light_is_replaced_with_a_warning() {
     );
     let (panorama, remarks) = read_panorama(&path).unwrap();
     assert_eq!(panorama.rgb(), [[0.0, 1.0, 0.0], [65504.0, 2.0, 3.0]]);
-    assert_eq!(remarks.len(), 2, "{remarks:?}");
+    assert_eq!(remarks.len(), 3, "{remarks:?}");
     assert!(
         remarks[0].contains("odd.exr: 1 pixel of the environment is negative or no number"),
         "{remarks:?}"
@@ -110,6 +110,25 @@ fn invalid_light_is_replaced_with_a_warning() {
         remarks[1].contains("odd.exr: 1 pixel of the environment is brighter than 65504"),
         "{remarks:?}"
     );
+}
+
+#[test]
+fn infinite_and_undefined_pixels_are_counted() {
+    let lone = |odd: f32| {
+        let mut red = vec![1.0_f32; 8];
+        red[3] = odd;
+        let channels: [(&str, &[f32]); 3] = [("R", &red), ("G", &[1.0; 8]), ("B", &[1.0; 8])];
+        let exr = encode_exr(4, 2, &channels, sabi_image::ExrSamples::Float).unwrap();
+        let (_folder, path) = file("odd.exr", &exr);
+        let (panorama, remarks) = read_panorama(&path).unwrap();
+        assert!(
+            remarks.len() == 1 && remarks[0].contains("odd.exr: it has 1 pixel with infinite or undefined numbers"),
+            "{remarks:?}"
+        );
+        panorama.rgb()[3]
+    };
+    assert_eq!(lone(f32::INFINITY), [65504.0, 1.0, 1.0]);
+    assert_eq!(lone(f32::NAN), [0.0, 1.0, 1.0]);
 }
 
 #[test]

@@ -9,6 +9,7 @@ use sabi_image::Pixels;
 use sabi_plan::FileFaultKind;
 
 use super::{OpenPicture, PixelReading, SessionPictures};
+use crate::source::mip_chain::PixelCurve;
 
 /// Returns a BMP of 2 by 2 pixels, all of the same gray.
 pub(in crate::source) fn bmp(gray: u8) -> Vec<u8> {
@@ -110,7 +111,7 @@ fn the_picture_that_was_not_used_for_longest_goes_first() {
     let last = pictures.open(&a, "x.bmp", "").unwrap();
     last.levels(
         PixelReading {
-            is_srgb: false,
+            curve: PixelCurve::Linear,
             by_alpha: true,
         },
         1,

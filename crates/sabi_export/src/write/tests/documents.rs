@@ -118,6 +118,38 @@ fn documents_undo_what_normalized_maps_were_divided_by() {
 }
 
 #[test]
+fn the_package_multiplies_emission_above_1_and_the_text_reads_it_from_floats() {
+    let mut options = preset("usd");
+    options.document_stem = Some("figure".to_owned());
+    let folder = tempfile::tempdir().unwrap();
+    let emission = (
+        Channel::Emission,
+        pixels(&Channel::Emission, |index| (index % 41) as f32 * 0.125),
+    );
+    bake_tiles(folder.path(), &options, &[(layout(), vec![emission])]);
+    let read = |name: &str| String::from_utf8_lossy(&fs::read(folder.path().join(name)).unwrap()).into_owned();
+    let scale = "float4 inputs:scale = (5, 5, 5, 1)";
+    let text = read("figure.usda");
+    assert!(
+        text.contains("@./body_Emissive.exr@") && !text.contains(scale),
+        "{text}"
+    );
+    let package = read("figure.usdz");
+    assert!(package.contains("@./body_Emissive.png@") && package.contains(scale));
+    // Emission up to 1 is stored as it is.
+    let low = (
+        Channel::Emission,
+        pixels(&Channel::Emission, |index| (index % 9) as f32 * 0.125),
+    );
+    let folder = tempfile::tempdir().unwrap();
+    bake_tiles(folder.path(), &options, &[(layout(), vec![low])]);
+    let package = fs::read(folder.path().join("figure.usdz")).unwrap();
+    let package = String::from_utf8_lossy(&package);
+    assert!(package.contains("@./body_Emissive.png@") && !package.contains("inputs:scale = (5"));
+    assert!(!folder.path().join("body_Emissive.exr").exists());
+}
+
+#[test]
 fn a_tile_gets_the_map_that_others_have() {
     let maps = "[[map]]\nname = \"Surface\"\nr = \"occlusion\"\ng = \"roughness\"\nb = \"metallic\"\nformat = \"png8\"\n\
                 [[map]]\nname = \"Opacity\"\ngray = \"opacity\"\nformat = \"png8\"\n\

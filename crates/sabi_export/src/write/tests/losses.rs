@@ -72,7 +72,7 @@ fn the_heights_of_godot_span_zero_to_one_and_the_record_has_their_range() {
         ((3 * 32 + 2) as f32 * 0.001 - 0.2, (29 * 32 + 29) as f32 * 0.001 - 0.2)
     );
     let picture = decode("h.exr", &fs::read(folder.path().join(&record.path)).unwrap()).unwrap();
-    let values = picture.linear_rgba(false).rgba;
+    let values = picture.linear_rgba(sabi_image::TransferCurve::Linear).rgba;
     for (value, height) in values.iter().zip(&height.data) {
         let expected = ((height - low) / (high - low)).clamp(0.0, 1.0);
         assert!((value[0] - expected).abs() <= 0.5 / 1024.0, "{} {expected}", value[0]);

@@ -81,6 +81,7 @@ fn a_picture_is_repeated_a_whole_number_of_times_along_a_ribbon() {
         pixels: sabi_image::Pixels::U8(pixels),
         channels: 4,
         color_space: sabi_image::DeclaredColorSpace::Srgb,
+        remarks: sabi_image::PictureRemarks::default(),
     });
     let name = crate::PictureName::of(b"band", "png").unwrap();
     let mut stroke = ribbon(&surface, Tip::Round, [-0.6, 0.0], [0.7, 0.0]);

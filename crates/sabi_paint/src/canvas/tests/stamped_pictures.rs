@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sabi_image::{DeclaredColorSpace, Picture, Pixels};
+use sabi_image::{DeclaredColorSpace, Picture, PictureRemarks, Pixels};
 
 use sabi_surface::patch::weights_at;
 
@@ -26,6 +26,7 @@ pub(super) fn flag() -> (PictureTip, StampPictures) {
         channels: 4,
         pixels: Pixels::U8([row, row].as_flattened().as_flattened().to_vec()),
         color_space: DeclaredColorSpace::Srgb,
+        remarks: PictureRemarks::default(),
     };
     let name = PictureName::of(b"flag", "png").unwrap();
     let tip = PictureTip {
