@@ -142,7 +142,7 @@ impl FlatView {
 
     /// Menu of the planes.
     fn planes(&mut self, ui: &mut Ui, values: &InspectedResult) {
-        let title = |at: usize| plane_names(&values.planes[at].name).0;
+        let title = |at: usize| plane_names(values.planes[at].name).0;
         let menu = egui::ComboBox::from_id_salt("plane").width(PLANES).truncate();
         let menu = menu.selected_text(title(self.plane)).show_ui(ui, |ui| {
             for at in 0..values.planes.len() {
@@ -157,7 +157,7 @@ impl FlatView {
         let Some(plane) = values.planes.get(self.plane) else {
             return;
         };
-        let (_, meanings) = plane_names(&plane.name);
+        let (_, meanings) = plane_names(plane.name);
         ui.selectable_value(&mut self.component, None, "RGB");
         for (at, name) in ["R", "G", "B", "A"].iter().enumerate().take(plane.components) {
             let button = ui.selectable_value(&mut self.component, Some(at), *name);
