@@ -12,6 +12,10 @@ use crate::surface::PaintSurface;
 /// Minimum cosine between the normal of the surface under the brush and that of another piece that it paints.
 const LEAST_FACING: f64 = 0.5;
 
+/// Distances from the middle of a label in its plane, as a share of those in space. A label that reaches halfway around a
+/// bottle has 1.57; below 1 is room for coarse triangles.
+const PLACED: std::ops::Range<f64> = 0.93..1.6;
+
 /// Minimum cosine between the direction in which a stamp is projected and the normal of a triangle that it paints, about 75°.
 const LEAST_THROWN: f64 = 0.25;
 
@@ -100,6 +104,20 @@ impl<'a> Patches<'a> {
             end: end.unwrap_or(DVec2::ZERO),
             reach,
         }
+    }
+
+    /// Drops triangles of the last patch that lie in a wrong place of its plane. The unfolding of a bent surface overlaps
+    /// itself: what it comes to around a bump lies where other triangles lie too. Such a triangle is nearer to the middle
+    /// in the plane than in space, which no way along a surface can be, or much farther.
+    pub(super) fn drop_misplaced(&mut self, from: Site) {
+        let connected = self.surface.connected();
+        let is_placed = |laid: &LaidTriangle| {
+            let in_space = connected.corners(laid.placed.triangle).iter().sum::<DVec3>() / 3.0 - from.position;
+            let in_plane = laid.placed.corners.iter().sum::<DVec2>() / 3.0;
+            // The middle of a large triangle under the label may be anywhere.
+            laid.placed.triangle == from.triangle || PLACED.contains(&(in_plane.length() / in_space.length()))
+        };
+        self.laid.retain(is_placed);
     }
 
     /// Projects the surface around a site along a normal onto the plane perpendicular to it. Includes triangles that face the normal and

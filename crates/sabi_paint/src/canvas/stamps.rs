@@ -172,7 +172,11 @@ impl Painter<'_> {
         };
         let plane = match area {
             Area::Decal => self.patches.project(wanted, normal),
-            _ => self.patches.lay(wanted),
+            _ => {
+                let plane = self.patches.lay(wanted);
+                self.patches.drop_misplaced(point.site);
+                plane
+            }
         };
         let shape = BrushShape::Stamp {
             middle: DVec2::ZERO,

@@ -153,6 +153,44 @@ fn a_decal_can_be_read_from_the_side_on_which_it_was_laid() {
     }
 }
 
+/// A label is as large as its picture wherever it lies. What the unfolding puts in two places makes it larger.
+#[test]
+fn a_label_leaves_no_pieces_beside_it_on_a_bent_surface() {
+    let mesh = mesh_of("figure");
+    let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 1024), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let size = size_of(&mesh);
+    let radius = 0.12 * size;
+    let mut shares = Vec::new();
+    for step in 0..36 {
+        let turn = f64::from(step) * 0.7;
+        let toward = DVec3::new(0.0, size * (f64::from(step) / 18.0 - 1.0) * 0.8, 0.0);
+        let eye = toward + 9.0 * size * DVec3::new(turn.sin(), 0.0, turn.cos());
+        let Some(site) = site_seen_from(&mesh, &bvh, eye, toward) else {
+            continue;
+        };
+        let brush = Brush {
+            tip: crate::Tip::Square,
+            hardness: 1.0,
+            radius: radius as f32,
+            ..Brush::default()
+        };
+        let label = Stroke {
+            area: Area::Label,
+            ..Stroke::new(brush, vec![surface.point(site, 1.0, true).unwrap()])
+        };
+        let canvas = painted(&surface, &atlas, &[label]);
+        shares.push(covered_area(&mesh, &atlas, &canvas) / (2.0 * radius).powi(2));
+    }
+    let most = shares.iter().copied().fold(0.0, f64::max);
+    let mean = shares.iter().sum::<f64>() / shares.len() as f64;
+    // Some of the labels reach beyond an edge of the model.
+    assert!(
+        most < 1.12 && mean > 0.9,
+        "{most} of its area, {mean} in the mean: {shares:.2?}"
+    );
+}
+
 #[test]
 fn a_decal_is_projected_straight_over_the_joints_of_boards() {
     // Boards of the crate are at different depths, and each is a separate piece.
