@@ -61,8 +61,10 @@ pub fn add(document: &mut OpenDocument, files: &[PathBuf], pos: [f32; 2]) -> boo
 /// Moves nodes that are added in a box of this size, at `pos`, so that the box covers no other node.
 fn move_to_free(document: &OpenDocument, edits: &mut [Edit], pos: [f32; 2], size: [f32; 2]) {
     let others: Vec<&NodeId> = document.graph().ids().collect();
-    let free = wires::uncovering(document, pos, size, &others);
-    let way = [free[0] - pos[0], free[1] - pos[1]];
+    // With a gap on all sides.
+    let corner = pos.map(|at| at - GAP);
+    let free = wires::uncovering(document, corner, size.map(|side| side + 2.0 * GAP), &others);
+    let way = [free[0] - corner[0], free[1] - corner[1]];
     for edit in edits {
         if let Edit::AddNode { node, .. } = edit {
             node.pos = [(node.pos[0] + way[0]).round(), (node.pos[1] + way[1]).round()];

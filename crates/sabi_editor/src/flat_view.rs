@@ -198,7 +198,8 @@ impl FlatView {
             outdated_results::cover(&painter, rect, evaluation, theme);
         } else if let Some(activity) = evaluation.activity().filter(|_| evaluation.is_busy()) {
             let text = format!("{} {}", icon::HOURGLASS_MEDIUM, activity_text(&activity));
-            let corner = rect.right_bottom() - vec2(8.0, 6.0);
+            // Above the histogram.
+            let corner = rect.right_bottom() - vec2(8.0, picture::HISTOGRAM + 2.0 * space::USUAL);
             let font = FontId::proportional(type_size::SMALL);
             painter.text(corner, Align2::RIGHT_BOTTOM, text, font, theme.quiet);
         }

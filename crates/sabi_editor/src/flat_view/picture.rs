@@ -6,6 +6,8 @@ use sabi_engine::live::InspectedResult;
 
 use crate::theme::{Theme, space};
 
+/// Height of the histogram in the corner of the view, points.
+pub(super) const HISTOGRAM: f32 = 56.0;
 /// Least width of a histogram, points.
 const NARROWEST: f32 = 80.0;
 /// Brightness beside the charts.
@@ -91,7 +93,7 @@ impl Histogram {
     /// Draws the histogram in the lower right corner, as wide as there is room beside the texture in `square`; over it where that
     /// is too little.
     pub(super) fn draw(&self, painter: &Painter, panel: Rect, square: Rect, theme: &Theme) {
-        let mut size = vec2(150.0, 56.0);
+        let mut size = vec2(150.0, HISTOGRAM);
         if panel.width() < 2.0 * size.x || panel.height() < 2.0 * size.y {
             return;
         }
