@@ -79,7 +79,7 @@ fn documents_are_shown_written_beside_the_maps_and_listed() {
     let place = CliFolder::new();
     let shown = place.sabi(&["presets", "show", "usd"]).good().stdout;
     assert!(
-        shown.contains("(model)                     usdz        the same with its PNG maps in one file\n"),
+        shown.contains("(model)                     usdz                the same with its PNG maps in one file\n"),
         "{shown}"
     );
     let arguments = [

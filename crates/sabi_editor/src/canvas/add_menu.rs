@@ -129,9 +129,6 @@ impl AddMenu {
         }
         ui.add_space(space::TIGHT);
         let entered = ui.input(|input| input.key_pressed(Key::Enter)).then_some(self.chosen);
-        if found.is_empty() {
-            ui.colored_label(theme.quiet, "No node is called that; try another word.");
-        }
         let taken = self.list(ui, theme, &found, is_other).or(entered);
         match taken.and_then(|at| found.get(at)) {
             Some(candidate) => MenuResult::Chosen(self.action(document, candidate)),
@@ -177,6 +174,9 @@ impl AddMenu {
         }
         let mut clicked = None;
         area.show(ui, |ui| {
+            if found.is_empty() {
+                ui.colored_label(theme.quiet, "No node is called that; try another word.");
+            }
             let mut section = "";
             for (at, candidate) in found.iter().enumerate() {
                 if is_sectioned && section != candidate.section {
