@@ -1,5 +1,6 @@
 //! Pictures that a graph names: their paths, and errors if they cannot be read.
 
+use crate::bad_archives::crc32;
 use crate::cli_folder::{CliFolder, graph};
 
 /// Returns a picture of 2 by 2 pixels, all with the same gray.
@@ -163,4 +164,43 @@ fn a_layer_of_an_openexr_file_is_chosen_by_rule_or_by_name() {
     let run = place.bake("image.sabi", "cube.glb", &set).fails(65);
     let told = "plain.bmp has no layer 'a'; only OpenEXR files have layers, so leave the name empty";
     assert!(run.stderr.contains(told), "{}", run.stderr);
+}
+
+/// A PNG whose colors have the primaries of BT.2020 and the curve PQ (PNG specification, 11.3.2.6).
+fn png_with_curve_pq() -> Vec<u8> {
+    let options = sabi_image::PngOptions {
+        channels: 3,
+        bits: 8,
+        srgb_chunk: false,
+    };
+    let plain = sabi_image::encode_png(1, 1, sabi_image::PngData::U8(&[200, 100, 50]), options).unwrap();
+    let chunk = b"cICP\x09\x10\x00\x01";
+    // Behind the signature and the header.
+    let (before, after) = plain.split_at(8 + 25);
+    let length = 4_u32.to_be_bytes();
+    let sum = crc32(chunk).to_be_bytes();
+    [before, &length, chunk, &sum, after].concat()
+}
+
+#[test]
+fn what_a_picture_declares_about_its_colors_and_is_not_applied_is_told_where_they_are_shown() {
+    let place = CliFolder::new();
+    place.write("pq.png", png_with_curve_pq());
+    let told = "pq.png declares the curve PQ (cICP), which Sabi does not apply";
+    let of = |output: &str, kind: &str, more: &str| {
+        graph(&format!(
+            r#""img": {{ "kind": "source/image", "params": {{ "file": "pq.png"{more} }} }},
+    "out": {{ "kind": "output/{kind}", "inputs": {{ "source": "img.{output}" }} }}"#
+        ))
+        .replace("clouds.", "img.")
+    };
+    for (output, kind, more, is_told) in [
+        ("color", "color", "", true),
+        ("color", "color", r#", "color_space": "srgb""#, false),
+        ("mask", "mask", "", false),
+    ] {
+        place.write("image.sabi", of(output, kind, more));
+        let run = place.bake("image.sabi", "cube.glb", &["--force", "--no-cache"]).good();
+        assert_eq!(run.stderr.contains(told), is_told, "{output}{more}: {}", run.stderr);
+    }
 }

@@ -165,7 +165,7 @@ pub(super) fn draw(
         by_alpha: of == ImageOutput::Color && step.values.index("alpha_is").map_err(unread)? == 0,
     };
     let picture = surface.picture_tables.table(canvas, open, reading)?;
-    let mut mistakes = probable_mistakes(open, step, of).map_err(unread)?;
+    let mut mistakes = probable_mistakes(open, step, of, reading.curve).map_err(unread)?;
     let file = step.values.text("file").map_err(unread)?;
     mistakes.extend(picture.why_smaller(&format!("node '{}' ({NAME}): {file}", step.id)));
     for mistake in mistakes {
@@ -221,7 +221,12 @@ fn kernel(
 }
 
 /// Lists probable mistakes, as sentences.
-fn probable_mistakes(open: &OpenPicture, step: &SourceStep, of: ImageOutput) -> Result<Vec<String>, NoSuchValue> {
+fn probable_mistakes(
+    open: &OpenPicture,
+    step: &SourceStep,
+    of: ImageOutput,
+    curve: PixelCurve,
+) -> Result<Vec<String>, NoSuchValue> {
     let file = step.values.text("file")?;
     let mut sentences = Vec::new();
     if of == ImageOutput::Slope && open.picture.channels < 3 {
@@ -243,11 +248,9 @@ fn probable_mistakes(open: &OpenPicture, step: &SourceStep, of: ImageOutput) -> 
         ));
     }
     let remarks = &open.picture.remarks;
-    sentences.extend(
-        remarks
-            .values
-            .iter()
-            .map(|remark| format!("node '{}' ({NAME}): {file} {remark}", step.id)),
-    );
+    // What a file declares about colors matters only where they are read as it declares them.
+    let of_color = remarks.color.iter().filter(|_| curve == PixelCurve::Declared);
+    let told = remarks.values.iter().chain(of_color);
+    sentences.extend(told.map(|remark| format!("node '{}' ({NAME}): {file} {remark}", step.id)));
     Ok(sentences)
 }
