@@ -320,17 +320,8 @@ impl Evaluation {
                 }
                 LiveEvent::Inspected { revision, node, values } => {
                     let wanted = self.requested.as_ref().map(|(_, wanted)| wanted);
-                    let is_wanted = |of: fn(&WantedResults) -> &Option<NodeRef>| {
-                        wanted.is_some_and(|it| of(it).as_ref() == Some(&node))
-                    };
-                    if is_wanted(|wanted| &wanted.measured) {
-                        self.results.measured = Some((node.clone(), values.clone()));
-                        if !is_wanted(|wanted| &wanted.inspected) {
-                            continue;
-                        }
-                    }
-                    self.results.inspected = Some((node, values));
-                    if revision >= self.first_of_file.1 {
+                    let is_inspected = self.results.take_values(wanted, node, values);
+                    if is_inspected && revision >= self.first_of_file.1 {
                         self.results.inspected_since = self.first_of_file.0;
                     }
                 }

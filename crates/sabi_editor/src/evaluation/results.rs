@@ -69,6 +69,9 @@ pub(crate) struct EvaluationResults {
     pub(super) inspected_since: u64,
     /// Result whose histogram is shown among parameters, with its values.
     pub(crate) measured: Option<(NodeRef, Arc<InspectedResult>)>,
+    /// Last values that arrived after another result was requested. The engine does not send them again while they are
+    /// unchanged.
+    unwanted: Option<(NodeRef, Arc<InspectedResult>)>,
     times: BTreeMap<String, Duration>,
     /// Times and memory of the last evaluation.
     pub(crate) last: LiveTimes,
@@ -81,11 +84,38 @@ impl EvaluationResults {
         let values_of = |wanted: &Option<NodeRef>, known: &Option<(NodeRef, Arc<InspectedResult>)>| {
             known.clone().filter(|(node, _)| Some(node) == wanted.as_ref())
         };
-        let measured = values_of(&wanted.measured, &self.measured).or(values_of(&wanted.measured, &self.inspected));
-        if let Some(inspected) = values_of(&wanted.inspected, &self.measured) {
-            self.inspected = Some(inspected);
+        let held = [&self.measured, &self.inspected, &self.unwanted];
+        let measured = held.iter().find_map(|known| values_of(&wanted.measured, known));
+        let held = [&self.inspected, &self.measured, &self.unwanted];
+        let inspected = held.iter().find_map(|known| values_of(&wanted.inspected, known));
+        if inspected.is_some() {
+            self.inspected = inspected;
         }
         self.measured = measured;
+    }
+
+    /// Takes values that arrived. Returns whether they are those of the 2D view.
+    pub(super) fn take_values(
+        &mut self,
+        wanted: Option<&WantedResults>,
+        node: NodeRef,
+        values: Arc<InspectedResult>,
+    ) -> bool {
+        let is_wanted = |of: fn(&WantedResults) -> &Option<NodeRef>| {
+            wanted.is_some_and(|wanted| of(wanted).as_ref() == Some(&node))
+        };
+        let is_inspected = is_wanted(|wanted| &wanted.inspected);
+        let is_measured = is_wanted(|wanted| &wanted.measured);
+        let arrived = Some((node, values));
+        if is_measured {
+            self.measured = arrived.clone();
+        }
+        if is_inspected {
+            self.inspected = arrived;
+        } else if !is_measured {
+            self.unwanted = arrived;
+        }
+        is_inspected
     }
 }
 
@@ -217,5 +247,69 @@ impl EvaluationResults {
             self.thumbnails.remove(node);
         }
         dropped
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sabi_engine::evaluating::TextureSet;
+    use sabi_export::SetKey;
+    use sabi_graph::PortType;
+
+    use super::*;
+
+    fn values_of(size: u32) -> Arc<InspectedResult> {
+        Arc::new(InspectedResult {
+            ty: PortType::Mask,
+            size,
+            set: TextureSet {
+                key: SetKey {
+                    material: 0,
+                    uv_tile: [0, 0],
+                    udim: None,
+                },
+                name: String::new(),
+            },
+            planes: Vec::new(),
+            is_on_surface: Vec::new(),
+        })
+    }
+
+    fn wanted(inspected: &str, measured: Option<&str>) -> WantedResults {
+        let result = |node: &str| NodeRef {
+            node: node.to_owned(),
+            port: None,
+        };
+        WantedResults {
+            inspected: Some(result(inspected)),
+            measured: measured.map(result),
+            ..WantedResults::default()
+        }
+    }
+
+    /// The engine sends values once, and may do so after another result was requested.
+    #[test]
+    fn values_that_arrive_late_neither_replace_those_that_are_wanted_nor_are_they_lost() {
+        let mut results = EvaluationResults::default();
+        let shown = |results: &EvaluationResults| {
+            results
+                .inspected
+                .as_ref()
+                .map(|(node, values)| (node.node.clone(), values.size))
+        };
+        let node = |node: &str| wanted(node, None).inspected.expect("a result");
+        let levels = wanted("levels", Some("noise"));
+        results.share_values(&levels);
+        results.take_values(Some(&levels), node("noise"), values_of(1));
+        results.take_values(Some(&levels), node("levels"), values_of(2));
+        assert_eq!(shown(&results), Some(("levels".to_owned(), 2)));
+        let noise = wanted("noise", None);
+        results.share_values(&noise);
+        assert_eq!(shown(&results), Some(("noise".to_owned(), 1)), "it was measured before");
+        let is_shown = results.take_values(Some(&noise), node("levels"), values_of(3));
+        assert!(!is_shown);
+        assert_eq!(shown(&results), Some(("noise".to_owned(), 1)));
+        results.share_values(&levels);
+        assert_eq!(shown(&results), Some(("levels".to_owned(), 3)));
     }
 }
