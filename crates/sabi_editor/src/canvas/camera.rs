@@ -13,8 +13,6 @@ use super::view::CanvasView;
 
 /// Distance from an edge of the panel at which a drag scrolls the canvas, screen points.
 pub(super) const SCROLL_EDGE: f32 = 28.0;
-/// Share of a new node that has to be in view.
-const LEAST_SEEN: f32 = 0.6;
 /// Highest speed of scrolling at an edge, screen points a second.
 const SCROLL_SPEED: f32 = 900.0;
 
@@ -97,18 +95,16 @@ impl CanvasCamera {
         self.frame_rects(ids.filter_map(|id| node_rect(document, id)));
     }
 
-    /// Moves the view to a node that was added outside of it or at its border, or to all nodes if these are the first ones.
+    /// Moves the view to a node that was added outside of it, or to all nodes if these are the first ones.
     pub(crate) fn reveal(&mut self, document: &OpenDocument, id: &NodeId, are_first: bool) {
         let (Some(panel), Some(rect)) = (self.panel, node_rect(document, id)) else {
             return;
         };
         let seen = self.view.visible_rect(panel);
-        let shown = seen.intersect(rect);
-        let is_seen = shown.is_positive() && shown.area() > LEAST_SEEN * rect.area();
         let mut all = document.graph().ids().filter_map(|id| node_rect(document, id));
         if are_first && !all.all(|rect| seen.contains_rect(rect)) {
             self.frame_all(document);
-        } else if !is_seen {
+        } else if !seen.intersects(rect) {
             self.view.pan_to(panel, rect);
         }
     }

@@ -174,7 +174,7 @@ fn the_keys_1_to_9_add_favorites_under_the_pointer() {
     window.harness.state_mut().shell.settings.favorites = kinds.to_vec();
     for (at, kind) in kinds.iter().enumerate() {
         window.prepare(&[], Scope::Canvas);
-        let place = window.on_canvas([0.2, 0.3]);
+        let place = window.on_canvas([0.2, 0.9]);
         window.point(place);
         window.chord(&(at + 1).to_string());
         let added = window.document().selected_one().expect("a node").clone();
