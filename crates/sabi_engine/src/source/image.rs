@@ -248,7 +248,7 @@ fn probable_mistakes(
         ));
     }
     let remarks = &open.picture.remarks;
-    // What a file declares about colors matters only where they are read as it declares them.
+    // Declarations about colors matter only where colors are read as declared.
     let of_color = remarks.color.iter().filter(|_| curve == PixelCurve::Declared);
     let told = remarks.values.iter().chain(of_color);
     sentences.extend(told.map(|remark| format!("node '{}' ({NAME}): {file} {remark}", step.id)));

@@ -128,23 +128,23 @@ impl SizedComponent<'_> {
             .map(|y| RowValues::new::<C>(self, y))
             .collect();
         let levels = |y: usize| values.get(y.checked_sub(start)?).map(|row| &row.levels[..]);
-        let mut steps = RowSteps::default();
+        let steps: Vec<RowSteps> = (first..end)
+            .map(|y| {
+                let beside = [y.checked_sub(1).and_then(levels), levels(y + 1)];
+                RowSteps::of(&values[y - start].levels, beside)
+            })
+            .collect();
         let mut near_plateaus = vec![false; self.size[0].div_ceil(CELL)];
-        for y in first..end {
-            steps.find(
-                &values[y - start].levels,
-                [y.checked_sub(1).and_then(levels), levels(y + 1)],
-            );
-            for (cell, is_plateau) in near_plateaus.iter_mut().zip(steps.is_plateau.chunks(CELL)) {
+        for of_row in &steps {
+            for (cell, is_plateau) in near_plateaus.iter_mut().zip(of_row.is_plateau.chunks(CELL)) {
                 *cell |= is_plateau.contains(&true);
             }
         }
         let near_plateaus: Vec<bool> = (0..near_plateaus.len())
             .map(|at| near_plateaus[at.saturating_sub(1)..(at + 2).min(near_plateaus.len())].contains(&true))
             .collect();
-        for (y, slots) in slots {
+        for ((y, slots), steps) in slots.into_iter().zip(&steps) {
             let row = &values[y - start];
-            steps.find(&row.levels, [y.checked_sub(1).and_then(levels), levels(y + 1)]);
             let thresholds = C::thresholds(pattern, y as u32, self.is_color);
             let values_of_row = row.units.iter().zip(&row.levels).zip(&steps.is_gentle);
             for (x, (slot, ((unit, level), is_gentle))) in slots.zip(values_of_row).enumerate() {
@@ -187,7 +187,6 @@ impl RowValues {
 }
 
 /// Steps between the pixels of a row and their neighbors.
-#[derive(Default)]
 struct RowSteps {
     /// True for pixels that differ from a neighbor, but by less than two codes.
     is_gentle: Vec<bool>,
@@ -196,18 +195,19 @@ struct RowSteps {
 }
 
 impl RowSteps {
-    fn find(&mut self, row: &[f32], beside: [Option<&[f32]>; 2]) {
-        for found in [&mut self.is_gentle, &mut self.is_plateau] {
-            found.clear();
-            found.resize(row.len(), false);
-        }
+    fn of(row: &[f32], beside: [Option<&[f32]>; 2]) -> RowSteps {
+        let mut steps = RowSteps {
+            is_gentle: vec![false; row.len()],
+            is_plateau: vec![false; row.len()],
+        };
         for other in beside.into_iter().flatten() {
-            self.compare(0, row, other);
+            steps.compare(0, row, other);
         }
         if let Some(followers) = row.get(1..) {
-            self.compare(0, row, followers);
-            self.compare(1, followers, row);
+            steps.compare(0, row, followers);
+            steps.compare(1, followers, row);
         }
+        steps
     }
 
     /// Compares pixels, of which `own` begins at a column, with others, pair by pair.

@@ -155,10 +155,7 @@ impl Painter<'_> {
     pub(super) fn draw_single(&mut self, stroke: &LocatedStroke, area: Area, used: &UsedBrush) {
         let Some(point) = stroke.points.first() else { return };
         let normal = self.normal_under(point.site);
-        let of_plane = {
-            let right = rightward(normal);
-            [right, normal.cross(right)]
-        };
+        let of_plane = decal_axes(point, normal, None);
         let of_decal = decal_axes(point, normal, stroke.eye);
         let decal_from_plane = DMat2::from_cols_array_2d(&of_plane.map(|axis| of_decal.map(|other| axis.dot(other))));
         let turn = DMat2::from_angle(-mirrored(used, f64::from(used.brush.angle_degrees)).to_radians());

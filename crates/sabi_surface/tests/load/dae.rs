@@ -404,7 +404,7 @@ fn a_document_type_without_entities_changes_nothing() {
     assert_eq!(read(&typed).unwrap().mesh, read(&plain).unwrap().mesh);
 }
 
-/// What divides a text without ending it: a comment, a processing instruction, a section of characters.
+/// Markup that divides a text without ending it: a comment, a processing instruction, a section of characters.
 const DIVIDERS: [&str; 3] = ["<!-- 9 9 9 -->", "<?exporter 9 9 9?>", "<![CDATA[]]>"];
 
 #[test]
